@@ -1,0 +1,11 @@
+// The program behind ./furrow: every family by name, then the command line.
+#include "harness/command_line.hpp"
+#include "verification/families.hpp"
+
+int main(int argc, char** argv) {
+  const std::vector<furrow::Family> families = {
+      furrow::kernel_family(),
+      furrow::operators_family(),
+  };
+  return furrow::command_line(families, argc, argv);
+}

@@ -1,0 +1,38 @@
+// Smoothing kernels: W(r, h) = sigma_d / h^d * w(q), q = r/h, with compact support of `support` smoothing lengths.
+// A kernel is a small type with w, dw and its normalisation; everything else follows from those here.
+#pragma once
+
+#include <concepts>
+#include <string_view>
+
+namespace furrow {
+
+template <class K>
+concept SmoothingKernel = requires(double q, int dim) {
+  { K::name } -> std::convertible_to<std::string_view>;      // as in case files: "cubic_spline"
+  { K::support } -> std::convertible_to<double>;             // radius of the support in units of h
+  { K::w(q) } -> std::same_as<double>;                       // shape, q >= 0; zero from the support on, without a branch
+  { K::dw(q) } -> std::same_as<double>;                      // dw/dq
+  { K::normalisation(dim) } -> std::same_as<double>;         // sigma_d for d = 1, 2, 3
+};
+
+template <SmoothingKernel K, int Dim>
+constexpr double scale(double h) {
+  double h_to_dim = h;
+  for (int d = 1; d < Dim; ++d) h_to_dim *= h;
+  return K::normalisation(Dim) / h_to_dim;
+}
+
+/// W(r, h), 1/m^Dim.
+template <SmoothingKernel K, int Dim>
+constexpr double value(double r, double h) {
+  return scale<K, Dim>(h) * K::w(r / h);
+}
+
+/// dW/dr, 1/m^(Dim+1).
+template <SmoothingKernel K, int Dim>
+constexpr double derivative(double r, double h) {
+  return scale<K, Dim>(h) / h * K::dw(r / h);
+}
+
+}  // namespace furrow

@@ -1,0 +1,11 @@
+// The families whose reference is mathematics, one function each, defined in the family's case.cpp.
+#pragma once
+
+#include "harness/case.hpp"
+
+namespace furrow {
+
+Family kernel_family();      ///< verification/kernel: smoothing kernels, continuous and discrete
+Family operators_family();   ///< verification/operators: SPH sums on given particles, nothing moves
+
+}  // namespace furrow
