@@ -16,6 +16,20 @@ concept SmoothingKernel = requires(double q, int dim) {
   { K::normalisation(dim) } -> std::same_as<double>;         // sigma_d for d = 1, 2, 3
 };
 
+/// Where w and dw of a kernel are found: the kernel itself, or its OneDimensional where the shape differs in one dimension.
+template <SmoothingKernel K, int Dim>
+struct KernelShape {
+  using type = K;
+};
+template <SmoothingKernel K>
+  requires requires { typename K::OneDimensional; }
+struct KernelShape<K, 1> {
+  using type = typename K::OneDimensional;
+};
+template <SmoothingKernel K, int Dim>
+using Shape = typename KernelShape<K, Dim>::type;
+
+/// sigma_d / h^d, 1/m^Dim.
 template <SmoothingKernel K, int Dim>
 constexpr double scale(double h) {
   double h_to_dim = h;
@@ -26,13 +40,13 @@ constexpr double scale(double h) {
 /// W(r, h), 1/m^Dim.
 template <SmoothingKernel K, int Dim>
 constexpr double value(double r, double h) {
-  return scale<K, Dim>(h) * K::w(r / h);
+  return scale<K, Dim>(h) * Shape<K, Dim>::w(r / h);
 }
 
 /// dW/dr, 1/m^(Dim+1).
 template <SmoothingKernel K, int Dim>
 constexpr double derivative(double r, double h) {
-  return scale<K, Dim>(h) / h * K::dw(r / h);
+  return scale<K, Dim>(h) / h * Shape<K, Dim>::dw(r / h);
 }
 
 }  // namespace furrow

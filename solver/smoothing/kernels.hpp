@@ -9,10 +9,13 @@
 
 #include "solver/smoothing/cubic_spline.hpp"
 #include "solver/smoothing/kernel.hpp"
+#include "solver/smoothing/quintic_spline.hpp"
+#include "solver/smoothing/wendland_c2.hpp"
+#include "solver/smoothing/wendland_c4.hpp"
 
 namespace furrow {
 
-using AnyKernel = std::variant<CubicSpline>;
+using AnyKernel = std::variant<CubicSpline, QuinticSpline, WendlandC2, WendlandC4>;
 
 /// The kernel of this name; empty when there is none.
 std::optional<AnyKernel> kernel_by_name(std::string_view name);
