@@ -3,9 +3,6 @@
 #include "verification/families.hpp"
 
 int main(int argc, char** argv) {
-  const std::vector<furrow::Family> families = {
-      furrow::kernel_family(),
-      furrow::operators_family(),
-  };
+  const std::vector<furrow::Family> families = {};
   return furrow::command_line(families, argc, argv);
 }
