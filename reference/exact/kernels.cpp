@@ -1,0 +1,163 @@
+#include "reference/exact/kernels.hpp"
+
+#include <gsl/gsl_sf_bessel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <stdexcept>
+
+#include "reference/exact/quadrature.hpp"
+
+namespace furrow::exact {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Surface of the unit sphere in d dimensions: both ends of a line, circle, sphere.
+double unit_sphere(int dimension) {
+  if (dimension < 1 || dimension > 3) throw std::invalid_argument("dimension " + std::to_string(dimension) + " is not 1, 2 or 3");
+  return dimension == 1 ? 2.0 : dimension == 2 ? 2.0 * pi : 4.0 * pi;
+}
+
+double sinc(double x) { return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
+
+/// d sinc/dx.
+double sinc_slope(double x) { return std::abs(x) < 1e-2 ? x * (-1.0 / 3.0 + x * x / 30.0 - x * x * x * x / 840.0) : (std::cos(x) - sinc(x)) / x; }
+
+/// Polynomials of r = q/2 as polynomials of q.
+std::vector<double> of_half(std::vector<double> c) {
+  double factor = 1.0;
+  for (double& coefficient : c) {
+    coefficient *= factor;
+    factor *= 0.5;
+  }
+  return c;
+}
+
+}  // namespace
+
+Kernel::Kernel(int dimension, std::vector<Piece> pieces) : dimension_(dimension), pieces_(std::move(pieces)) {
+  if (pieces_.empty()) throw std::invalid_argument("a kernel needs a piece");
+  normalisation_ = 1.0 / (unit_sphere(dimension_) * radial_moment(dimension_ - 1));
+}
+
+double Kernel::radial_moment(int power) const {
+  long double sum = 0.0L, from = 0.0L;
+  for (const Piece& piece : pieces_) {
+    const long double to = piece.to;
+    for (std::size_t n = 0; n < piece.coefficients.size(); ++n) {
+      const int exponent = static_cast<int>(n) + power + 1;
+      sum += static_cast<long double>(piece.coefficients[n]) * (std::pow(to, exponent) - std::pow(from, exponent)) / exponent;
+    }
+    from = to;
+  }
+  return static_cast<double>(sum);
+}
+
+double Kernel::value(double r, double h) const {
+  const double q = r / h;
+  for (const Piece& piece : pieces_) {
+    if (q >= piece.to) continue;
+    double p = 0.0;
+    for (auto c = piece.coefficients.rbegin(); c != piece.coefficients.rend(); ++c) p = p * q + *c;
+    return normalisation_ * p / std::pow(h, dimension_);
+  }
+  return 0.0;
+}
+
+double Kernel::derivative(double r, double h) const {
+  const double q = r / h;
+  for (const Piece& piece : pieces_) {
+    if (q >= piece.to) continue;
+    double p = 0.0;
+    for (std::size_t n = piece.coefficients.size() - 1; n > 0; --n) p = p * q + static_cast<double>(n) * piece.coefficients[n];
+    return normalisation_ * p / std::pow(h, dimension_ + 1);
+  }
+  return 0.0;
+}
+
+double Kernel::second_moment() const {
+  return normalisation_ * unit_sphere(dimension_) * radial_moment(dimension_ + 1) / dimension_;
+}
+
+Kernel kernel(std::string_view name, int dimension) {
+  const bool line = dimension == 1;
+  if (name == "cubic_spline") return {dimension, {{1.0, {1.0, 0.0, -1.5, 0.75}}, {2.0, {2.0, -3.0, 1.5, -0.25}}}};
+  if (name == "quintic_spline") {
+    return {dimension,
+            {{1.0, {66.0, 0.0, -60.0, 0.0, 30.0, -10.0}},
+             {2.0, {51.0, 75.0, -210.0, 150.0, -45.0, 5.0}},
+             {3.0, {243.0, -405.0, 270.0, -90.0, 15.0, -1.0}}}};
+  }
+  if (name == "wendland_c2") {
+    return {dimension, {{2.0, of_half(line ? std::vector{1.0, 0.0, -6.0, 8.0, -3.0} : std::vector{1.0, 0.0, -10.0, 20.0, -15.0, 4.0})}}};
+  }
+  if (name == "wendland_c4") {
+    return {dimension,
+            {{2.0, of_half(line ? std::vector{1.0, 0.0, -7.0, 0.0, 35.0, -56.0, 35.0, -8.0}
+                                : std::vector{1.0, 0.0, -28.0 / 3.0, 0.0, 70.0, -448.0 / 3.0, 140.0, -64.0, 35.0 / 3.0})}}};
+  }
+  throw std::invalid_argument("no kernel is called \"" + std::string(name) + "\"");
+}
+
+Moments moments(const Radial& W, double radius, int dimension) {
+  // x = r cos(angle); on the line the "angle" is one of two directions.
+  const auto over_directions = [&](const std::function<double(double)>& of_cosine) {
+    if (dimension == 1) return of_cosine(-1.0) + of_cosine(1.0);
+    if (dimension == 2) return integrate([&](double t) { return of_cosine(std::cos(t)); }, 0.0, 2.0 * pi);
+    return 2.0 * pi * integrate(of_cosine, -1.0, 1.0);
+  };
+  const auto moment = [&](int power) {
+    return over_directions([&](double cosine) {
+      return integrate([&](double r) { return std::pow(r * cosine, power) * std::pow(r, dimension - 1) * W(r); }, 0.0, radius);
+    });
+  };
+  unit_sphere(dimension);
+  return {moment(0), moment(1), moment(2)};
+}
+
+double fourier_transform(const Radial& W, double radius, int dimension, double k) {
+  const auto wave = [&](double r) {
+    return dimension == 1 ? std::cos(k * r) : dimension == 2 ? r * gsl_sf_bessel_J0(k * r) : r * r * sinc(k * r);
+  };
+  return unit_sphere(dimension) * integrate([&](double r) { return W(r) * wave(r); }, 0.0, radius);
+}
+
+double fourier_transform_by_projection(const Radial& W, double radius, double k) {
+  const auto projection = [&](double x) {
+    return 2.0 * integrate([&](double y) { return W(std::hypot(x, y)); }, 0.0, std::sqrt(radius * radius - x * x));
+  };
+  return 2.0 * integrate([&](double x) { return std::cos(k * x) * projection(x); }, 0.0, radius, 1e-12);
+}
+
+double b_spline_transform(int order, int dimension, double k) {
+  const double x = 0.5 * k;
+  if (dimension == 1) return std::pow(sinc(x), order);
+  if (dimension != 3) throw std::invalid_argument("the transform of a B-spline has this closed form in 1 and 3 dimensions only");
+  // F1' = order/2 sinc^(order-1) sinc', and -F1'/k tends to order/12 as k -> 0.
+  return -12.0 / k * 0.5 * std::pow(sinc(x), order - 1) * sinc_slope(x);
+}
+
+NegativePart negative_part(const std::function<double(double)>& F, double k_max, double k_step) {
+  NegativePart part;
+  double before = 0.0;
+  for (int i = 1; i * k_step <= k_max; ++i) {
+    const double k = i * k_step, f = F(k);
+    part.deepest = std::min(part.deepest, f);
+    if (!part.found && f < 0.0) {
+      double low = before, high = k;
+      while (high - low > 1e-10) {
+        const double middle = 0.5 * (low + high);
+        (F(middle) < 0.0 ? high : low) = middle;
+      }
+      part.found = true;
+      part.begins = 0.5 * (low + high);
+    }
+    before = k;
+  }
+  return part;
+}
+
+}  // namespace furrow::exact
