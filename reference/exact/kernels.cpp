@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "reference/exact/quadrature.hpp"
 
@@ -24,7 +25,9 @@ double unit_sphere(int dimension) {
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
 
 /// d sinc/dx.
-double sinc_slope(double x) { return std::abs(x) < 1e-2 ? x * (-1.0 / 3.0 + x * x / 30.0 - x * x * x * x / 840.0) : (std::cos(x) - sinc(x)) / x; }
+double sinc_slope(double x) {
+  return std::abs(x) < 1e-2 ? x * (-1.0 / 3.0 + x * x / 30.0 - x * x * x * x / 840.0) : (std::cos(x) - sinc(x)) / x;
+}
 
 /// Polynomials of r = q/2 as polynomials of q.
 std::vector<double> of_half(std::vector<double> c) {
@@ -92,7 +95,9 @@ Kernel kernel(std::string_view name, int dimension) {
              {3.0, {243.0, -405.0, 270.0, -90.0, 15.0, -1.0}}}};
   }
   if (name == "wendland_c2") {
-    return {dimension, {{2.0, of_half(line ? std::vector{1.0, 0.0, -6.0, 8.0, -3.0} : std::vector{1.0, 0.0, -10.0, 20.0, -15.0, 4.0})}}};
+    return {dimension,
+            {{2.0, of_half(line ? std::vector{1.0, 0.0, -6.0, 8.0, -3.0}
+                                : std::vector{1.0, 0.0, -10.0, 20.0, -15.0, 4.0})}}};
   }
   if (name == "wendland_c4") {
     return {dimension,
