@@ -1,6 +1,7 @@
 // Input: TOML tables read with their place in the file, so that every mistake is named by file, line and key.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,6 +21,9 @@ class InputError : public std::runtime_error {
   /// "FILE:LINE: KEY: MESSAGE"; line 0 is left out.
   InputError(std::string_view file, int line, std::string_view key, std::string_view message);
 };
+
+/// The word of the list that `word` was most likely meant to be; empty when none is near.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 /// Closed or open interval that an input number must lie in, with the words for a message.
 struct Range {
@@ -69,6 +73,14 @@ class Parameters {
   Parameters table_or_empty(std::string_view key) const;   ///< nested table; empty when absent
   std::vector<Parameters> tables(std::string_view key) const;   ///< array of tables; empty when absent
 
+  std::chrono::year_month_day date(std::string_view key) const;   ///< a TOML date: 2026-11-22
+
+  /// A list of plain values or quantities, looked at one by one (for sweeps): how many, and each as it would stand in a name.
+  std::size_t length(std::string_view key) const;
+  std::string word(std::string_view key, std::size_t index) const;
+  std::string word(std::string_view key) const;            ///< a single plain value in the same writing
+  bool is_text(std::string_view key) const;
+
   std::vector<std::string> keys() const;
   const std::string& file() const;
   int line() const;                             ///< where this table begins
@@ -77,6 +89,14 @@ class Parameters {
 
   /// Throws for the first key, in this table or those asked for below it, that was never asked for; suggests the nearest known key.
   void check_all_used() const;
+
+  /// The same table with a fresh record of used keys, to be changed by the two functions below.
+  Parameters copy() const;
+  /// Puts the value `from.key[index]` at `key`; messages about it name the place where it stands in `from`.
+  void assign(std::string_view key, const Parameters& from, std::string_view from_key, std::size_t index);
+  /// Puts a value written as TOML at a dotted path ("resolution.h_over_dx"); text that is no TOML value is taken as a string.
+  void assign(std::string_view path, std::string_view value, const std::string& origin);
+  std::string json() const;                     ///< the table as it was read
 
   struct Node;
   explicit Parameters(std::shared_ptr<Node> node) : node_(std::move(node)) {}
