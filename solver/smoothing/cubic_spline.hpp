@@ -3,6 +3,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "solver/tensor/lanes.hpp"
+
 namespace furrow {
 
 /// Cubic B-spline (paper Eq. 4; Monaghan & Lattanzio 1985), support 2h:
@@ -11,12 +13,14 @@ struct CubicSpline {
   static constexpr std::string_view name = "cubic_spline";
   static constexpr double support = 2.0;
 
-  static constexpr double w(double q) {
-    const double a = q < 2.0 ? 2.0 - q : 0.0, b = q < 1.0 ? 1.0 - q : 0.0;
+  template <class Real>
+  static constexpr Real w(const Real& q) {
+    const Real a = positive_part(2.0 - q), b = positive_part(1.0 - q);
     return (a * a * a - 4.0 * b * b * b) / 6.0;
   }
-  static constexpr double dw(double q) {
-    const double a = q < 2.0 ? 2.0 - q : 0.0, b = q < 1.0 ? 1.0 - q : 0.0;
+  template <class Real>
+  static constexpr Real dw(const Real& q) {
+    const Real a = positive_part(2.0 - q), b = positive_part(1.0 - q);
     return -0.5 * a * a + 2.0 * b * b;
   }
   static constexpr double normalisation(int dim) {

@@ -11,7 +11,7 @@ template <class K>
 concept SmoothingKernel = requires(double q, int dim) {
   { K::name } -> std::convertible_to<std::string_view>;      // as in case files: "cubic_spline"
   { K::support } -> std::convertible_to<double>;             // radius of the support in units of h
-  { K::w(q) } -> std::same_as<double>;                       // shape, q >= 0; zero from the support on, without a branch
+  { K::w(q) } -> std::same_as<double>;                       // shape, q >= 0, over doubles or Lanes; zero beyond the support
   { K::dw(q) } -> std::same_as<double>;                      // dw/dq
   { K::normalisation(dim) } -> std::same_as<double>;         // sigma_d for d = 1, 2, 3
 };

@@ -3,6 +3,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "solver/tensor/lanes.hpp"
+
 namespace furrow {
 
 /// Wendland's C2 function (Wendland 1995; Dehnen & Aly 2012, Table 1) with support 2h: w = (1 - r)^4 (1 + 4 r), r = q/2.
@@ -11,22 +13,26 @@ struct WendlandC2 {
   static constexpr std::string_view name = "wendland_c2";
   static constexpr double support = 2.0;
 
-  static constexpr double w(double q) {
-    const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0;
+  template <class Real>
+  static constexpr Real w(const Real& q) {
+    const Real r = 0.5 * q, a = positive_part(1.0 - r);
     return a * a * a * a * (1.0 + 4.0 * r);
   }
-  static constexpr double dw(double q) {
-    const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0;
+  template <class Real>
+  static constexpr Real dw(const Real& q) {
+    const Real r = 0.5 * q, a = positive_part(1.0 - r);
     return -10.0 * r * a * a * a;
   }
 
   struct OneDimensional {
-    static constexpr double w(double q) {
-      const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0;
+    template <class Real>
+    static constexpr Real w(const Real& q) {
+      const Real r = 0.5 * q, a = positive_part(1.0 - r);
       return a * a * a * (1.0 + 3.0 * r);
     }
-    static constexpr double dw(double q) {
-      const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0;
+    template <class Real>
+    static constexpr Real dw(const Real& q) {
+      const Real r = 0.5 * q, a = positive_part(1.0 - r);
       return -6.0 * r * a * a;
     }
   };

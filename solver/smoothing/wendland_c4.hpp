@@ -3,6 +3,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "solver/tensor/lanes.hpp"
+
 namespace furrow {
 
 /// Wendland's C4 function (Wendland 1995; Dehnen & Aly 2012, Table 1) with support 2h: w = (1 - r)^6 (1 + 6 r + 35/3 r^2),
@@ -11,22 +13,26 @@ struct WendlandC4 {
   static constexpr std::string_view name = "wendland_c4";
   static constexpr double support = 2.0;
 
-  static constexpr double w(double q) {
-    const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0, a2 = a * a;
+  template <class Real>
+  static constexpr Real w(const Real& q) {
+    const Real r = 0.5 * q, a = positive_part(1.0 - r), a2 = a * a;
     return a2 * a2 * a2 * (1.0 + r * (6.0 + 35.0 / 3.0 * r));
   }
-  static constexpr double dw(double q) {
-    const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0, a2 = a * a;
+  template <class Real>
+  static constexpr Real dw(const Real& q) {
+    const Real r = 0.5 * q, a = positive_part(1.0 - r), a2 = a * a;
     return -28.0 / 3.0 * r * (1.0 + 5.0 * r) * a2 * a2 * a;
   }
 
   struct OneDimensional {
-    static constexpr double w(double q) {
-      const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0, a2 = a * a;
+    template <class Real>
+    static constexpr Real w(const Real& q) {
+      const Real r = 0.5 * q, a = positive_part(1.0 - r), a2 = a * a;
       return a2 * a2 * a * (1.0 + r * (5.0 + 8.0 * r));
     }
-    static constexpr double dw(double q) {
-      const double r = 0.5 * q, a = r < 1.0 ? 1.0 - r : 0.0, a2 = a * a;
+    template <class Real>
+    static constexpr Real dw(const Real& q) {
+      const Real r = 0.5 * q, a = positive_part(1.0 - r), a2 = a * a;
       return -7.0 * r * (1.0 + 4.0 * r) * a2 * a2;
     }
   };

@@ -1,0 +1,71 @@
+// THE field table: every quantity that a particle carries, with its symbol, HDF5 name, unit and one sentence. Sorting,
+// snapshots and checkpoints walk this table; a field that is not here does not exist.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "solver/tensor/tensor.hpp"
+
+namespace furrow {
+
+struct Field {
+  std::string_view symbol, name, unit, meaning;
+};
+
+/// One array per field, elements of fixed size, all of one length; sorted by cell whenever neighbours are rebuilt.
+template <int Dim>
+struct Particles {
+  std::vector<std::int32_t> id;
+  std::vector<Vector<Dim>> position, velocity, acceleration;
+  std::vector<double> mass, density;
+  std::vector<Tensor> stress;
+  std::vector<double> sound_speed;
+  std::vector<double> internal_energy, plastic_strain, temperature, damage;
+
+  std::size_t size() const { return position.size(); }
+  double volume(std::size_t i) const { return mass[i] / density[i]; }
+};
+
+/// Calls visit(Field, array) for every field of the table, in this order.
+template <class P, class Visitor>
+void for_each_field(P& p, Visitor&& visit) {
+  visit(Field{"id", "id", "1", "number given at creation, kept when particles are sorted"}, p.id);
+  visit(Field{"x", "position", "m", "position"}, p.position);
+  visit(Field{"v", "velocity", "m/s", "velocity"}, p.velocity);
+  visit(Field{"a", "acceleration", "m/s^2", "acceleration at the end of the last step"}, p.acceleration);
+  visit(Field{"m", "mass", "kg", "mass; per metre of width in plane strain"}, p.mass);
+  visit(Field{"rho", "density", "kg/m^3", "density"}, p.density);
+  visit(Field{"sigma", "stress", "Pa", "Cauchy stress, tension positive"}, p.stress);
+  visit(Field{"c", "sound_speed", "m/s", "longitudinal speed of sound"}, p.sound_speed);
+  visit(Field{"e", "internal_energy", "J/kg", "internal energy per mass"}, p.internal_energy);
+  visit(Field{"eps_p", "plastic_strain", "1", "equivalent plastic strain"}, p.plastic_strain);
+  visit(Field{"T", "temperature", "K", "temperature"}, p.temperature);
+  visit(Field{"D", "damage", "1", "damage, 1 when failed"}, p.damage);
+}
+
+/// Gives every field n elements; new ones are zero.
+template <int Dim>
+void resize(Particles<Dim>& p, std::size_t n) {
+  for_each_field(p, [n](const Field&, auto& array) {
+    using Element = typename std::remove_reference_t<decltype(array)>::value_type;
+    if constexpr (std::is_arithmetic_v<Element>)
+      array.resize(n, Element{});
+    else
+      array.resize(n, Element::Zero());
+  });
+}
+
+/// New element k is old element order[k], in every field.
+template <int Dim>
+void permute(Particles<Dim>& p, const std::vector<std::int32_t>& order) {
+  for_each_field(p, [&order](const Field&, auto& array) {
+    auto sorted = array;
+    for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = array[static_cast<std::size_t>(order[k])];
+    array.swap(sorted);
+  });
+}
+
+}  // namespace furrow

@@ -1,0 +1,166 @@
+#include "solver/particles/neighbours.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow {
+
+template <int Dim>
+CellGrid<Dim>::CellGrid(std::span<const Vector<Dim>> position, double reach, const Box<Dim>& b) : box(b) {
+  Vector<Dim> low = Vector<Dim>::Zero(), high = Vector<Dim>::Zero();
+  if (!position.empty()) low = high = position[0];
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (!position[i].allFinite()) throw std::runtime_error("position of particle " + std::to_string(i) + " is not finite");
+    low = low.cwiseMin(position[i]);
+    high = high.cwiseMax(position[i]);
+  }
+  for (int a = 0; a < Dim; ++a) {
+    if (!box.periodic(a)) continue;
+    if (box.length[a] < 2.0 * reach)
+      throw std::invalid_argument("a periodic box must be at least twice as long as the reach of the neighbour search");
+    low[a] = box.origin[a];
+    high[a] = box.origin[a] + box.length[a];
+  }
+  origin = low;
+  // A particle that has flown far away must not make the grid larger than memory: then cells grow.
+  const double most = 8.0 * static_cast<double>(position.size()) + 64.0;
+  const auto cells_at = [&](double edge) {
+    double cells = 1.0;
+    for (int a = 0; a < Dim; ++a) cells *= std::floor((high[a] - low[a]) / edge) + 1.0;
+    return cells;
+  };
+  double edge = reach;
+  while (cells_at(edge) > most) edge *= 2.0;
+  for (int a = 0; a < Dim; ++a) {
+    const double extent = high[a] - low[a];
+    count[a] = box.periodic(a) ? std::max(1, static_cast<std::int32_t>(extent / edge)) : static_cast<std::int32_t>(extent / edge) + 1;
+    cell[a] = box.periodic(a) ? extent / count[a] : edge;
+  }
+}
+
+template <int Dim>
+std::int32_t CellGrid<Dim>::cell_of(const Vector<Dim>& x) const {
+  std::int32_t c = 0;
+  for (int a = Dim - 1; a >= 0; --a) {
+    const auto k = static_cast<std::int32_t>((x[a] - origin[a]) / cell[a]);
+    c = c * count[a] + std::clamp(k, 0, count[a] - 1);
+  }
+  return c;
+}
+
+template <int Dim>
+CellOrder order_by_cell(const CellGrid<Dim>& grid, std::span<const Vector<Dim>> position) {
+  const std::size_t n = position.size();
+  std::vector<std::int32_t> cell(n);
+  CellOrder sorted;
+  sorted.begin.assign(static_cast<std::size_t>(grid.total()) + 1, 0);
+  sorted.order.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    cell[i] = grid.cell_of(position[i]);
+    ++sorted.begin[static_cast<std::size_t>(cell[i]) + 1];
+  }
+  for (std::size_t c = 1; c < sorted.begin.size(); ++c) sorted.begin[c] += sorted.begin[c - 1];
+  std::vector<std::int32_t> next(sorted.begin.begin(), sorted.begin.end() - 1);
+  for (std::size_t i = 0; i < n; ++i)
+    sorted.order[static_cast<std::size_t>(next[static_cast<std::size_t>(cell[i])]++)] = static_cast<std::int32_t>(i);
+  return sorted;
+}
+
+namespace {
+
+/// Cells at and beside k along one axis, each once, rising, also where a periodic axis has fewer than three.
+struct Beside {
+  std::int32_t cell[3];
+  int count = 0;
+  Beside(std::int32_t k, std::int32_t cells, bool periodic) {
+    for (std::int32_t at = k - 1; at <= k + 1; ++at) {
+      const std::int32_t image = periodic ? (at + cells) % cells : at;
+      if (image >= 0 && image < cells && std::find(cell, cell + count, image) == cell + count) cell[count++] = image;
+    }
+    std::sort(cell, cell + count);
+  }
+};
+
+/// Contiguous runs of particles that can hold neighbours of the particles in a cell: whole rows along the first axis.
+template <int Dim, class Visit>
+void for_each_run(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin, std::int32_t home, Visit&& visit) {
+  const auto axis = [&grid, &home](int a) {
+    if (a >= Dim) return Beside(0, 1, false);
+    const Beside beside(home % grid.count[a], grid.count[a], grid.box.periodic(a));
+    home /= grid.count[a];
+    return beside;
+  };
+  const Beside x = axis(0), y = axis(1), z = axis(2);
+  const std::int32_t rows = Dim > 1 ? grid.count[Dim > 1 ? 1 : 0] : 1;
+  for (int c = 0; c < z.count; ++c)
+    for (int b = 0; b < y.count; ++b) {
+      const std::int32_t row = (z.cell[c] * rows + y.cell[b]) * grid.count[0];
+      for (int first = 0; first < x.count;) {
+        int last = first;
+        while (last + 1 < x.count && x.cell[last + 1] == x.cell[last] + 1) ++last;
+        visit(cell_begin[static_cast<std::size_t>(row + x.cell[first])], cell_begin[static_cast<std::size_t>(row + x.cell[last]) + 1]);
+        first = last + 1;
+      }
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin, std::span<const Vector<Dim>> position,
+                      double reach, NeighbourList& list) {
+  const auto n = static_cast<std::int64_t>(position.size());
+  const double reach2 = reach * reach;
+  const bool periodic = grid.box.any_periodic();
+  list.reach = reach;
+  list.begin.resize(static_cast<std::size_t>(n) + 1);
+  list.count.resize(static_cast<std::size_t>(n));
+  list.begin[0] = 0;
+
+  // Each thread fills a block of rows; the blocks are laid end to end, so that the list does not depend on how many there are.
+  std::vector<std::vector<std::int32_t>> blocks(static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel
+  {
+    std::vector<std::int32_t>& block = blocks[static_cast<std::size_t>(omp_get_thread_num())];
+#pragma omp for schedule(static)
+    for (std::int64_t i = 0; i < n; ++i) {
+      const Vector<Dim> x_i = position[static_cast<std::size_t>(i)];
+      const std::size_t first = block.size();
+      for_each_run<Dim>(grid, cell_begin, grid.cell_of(x_i), [&](std::int32_t from, std::int32_t to) {
+        const std::size_t before = block.size();
+        block.resize(before + static_cast<std::size_t>(to - from));
+        std::int32_t* out = block.data() + before;
+        for (std::int32_t j = from; j < to; ++j) {
+          const Vector<Dim>& x_j = position[static_cast<std::size_t>(j)];
+          const double r2 = periodic ? grid.box.displacement(x_i, x_j).squaredNorm() : (x_i - x_j).squaredNorm();
+          *out = j;   // written always, kept when near: no branch to mispredict
+          out += static_cast<int>(r2 < reach2) & static_cast<int>(j != i);
+        }
+        block.resize(static_cast<std::size_t>(out - block.data()));
+      });
+      list.count[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(block.size() - first);
+      while ((block.size() - first) % lane_count != 0) block.push_back(static_cast<std::int32_t>(i));
+      list.begin[static_cast<std::size_t>(i) + 1] = static_cast<std::int64_t>(block.size() - first);
+    }
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) list.begin[i + 1] += list.begin[i];
+  list.index.resize(static_cast<std::size_t>(list.begin.back()));
+  auto out = list.index.begin();
+  for (const auto& block : blocks) out = std::copy(block.begin(), block.end(), out);
+}
+
+#define FURROW_INSTANTIATE(Dim)                                                                              \
+  template struct CellGrid<Dim>;                                                                             \
+  template CellOrder order_by_cell<Dim>(const CellGrid<Dim>&, std::span<const Vector<Dim>>);                 \
+  template void build_neighbours<Dim>(const CellGrid<Dim>&, const std::vector<std::int32_t>&,                \
+                                      std::span<const Vector<Dim>>, double, NeighbourList&);
+FURROW_INSTANTIATE(1)
+FURROW_INSTANTIATE(2)
+FURROW_INSTANTIATE(3)
+#undef FURROW_INSTANTIATE
+
+}  // namespace furrow

@@ -1,0 +1,23 @@
+// Kernel-gradient correction (Bonet & Lok 1999; Randles & Libersky 1996): gradients of linear fields become exact.
+#pragma once
+
+#include "solver/schemes/stencil.hpp"
+
+namespace furrow {
+
+/// What the discrete kernel does to a constant and to a linear field: with a perfect kernel 1, 0 and the unit matrix.
+template <int Dim>
+struct KernelSums {
+  double unity;              ///< sum_j V_j W_ij, the particle itself included
+  Vector<Dim> constant;      ///< sum_j V_j grad_i W_ij, 1/m
+  Matrix<Dim> linear;        ///< sum_j V_j (x_j - x_i) (x) grad_i W_ij
+};
+template <int Dim>
+void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<KernelSums<Dim>> out);
+
+/// B_i = [sum_j V_j (x_j - x_i) (x) grad_i W_ij]^-1, so that a plain sum times B_i is exact for linear fields. A particle with
+/// too few neighbours to span space (determinant below 1e-4) keeps the unit matrix.
+template <int Dim>
+void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out);
+
+}  // namespace furrow

@@ -1,0 +1,103 @@
+#include "solver/schemes/momentum.hpp"
+
+#include <cmath>
+
+namespace furrow {
+namespace {
+
+Lanes power_of(const Lanes& f, double n) {
+  if (n == 4.0) {
+    const Lanes f2 = f * f;
+    return f2 * f2;
+  }
+  Lanes result;
+  for (int l = 0; l < lane_count; ++l) result[l] = std::pow(f[l], n);
+  return result;
+}
+
+/// The sum itself; which terms are on is known when it is compiled, so that what is off costs nothing.
+template <int Dim, bool Viscous, bool Artificial>
+void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, bool dual,
+               const MomentumTerms& terms, const MomentumWorkspace<Dim>& w, std::span<Vector<Dim>> acceleration,
+               std::span<MomentumPower> power) {
+  const double h = stencil.smoothing_length;
+  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    const LaneMatrix<Dim> A_i = broadcast<Dim>(w.A[i]);
+    const Lanes prefactor = broadcast(dual ? 1.0 / p.density[i] : 1.0);
+    LaneVector<Dim> a;
+    Lanes stress_power{}, viscous_power{}, artificial_power{};
+    neighbours([&](const Pairs<Dim>& pair) {
+      const LaneVector<Dim> v_ij = v_i - gather<Dim>(velocity.data(), pair.j);
+      const Lanes weight = prefactor * gather(w.weight.data(), pair.j);
+      const LaneVector<Dim> from_stress = weight * ((A_i + gather<Dim>(w.A.data(), pair.j)) * pair.grad);
+      a += from_stress;
+      stress_power += dot(from_stress, v_ij);
+      if constexpr (Viscous || Artificial) {
+        const Lanes m_j = gather(p.mass.data(), pair.j);
+        if constexpr (Viscous) {
+          const Lanes c = 0.5 * (p.sound_speed[i] + gather(p.sound_speed.data(), pair.j));
+          const Lanes rho = 0.5 * (p.density[i] + gather(p.density.data(), pair.j));
+          const Lanes Pi = artificial_viscosity(*terms.viscosity, dot(v_ij, pair.x_ij), pair.r, h, c, rho);
+          const LaneVector<Dim> from_viscosity = (-m_j * Pi) * pair.grad;
+          a += from_viscosity;
+          viscous_power += dot(from_viscosity, v_ij);
+        }
+        if constexpr (Artificial) {
+          const double W_dx = Shape<K, Dim>::w(terms.spacing / h);
+          const Lanes f = Shape<K, Dim>::w(pair.r * (1.0 / h)) * (1.0 / W_dx);
+          const LaneMatrix<Dim> R = broadcast<Dim>(w.R[i]) + gather<Dim>(w.R.data(), pair.j);
+          const LaneVector<Dim> from_artificial = (m_j * power_of(f, terms.artificial_stress->n)) * (R * pair.grad);
+          a += from_artificial;
+          artificial_power += dot(from_artificial, v_ij);
+        }
+      }
+    });
+    acceleration[i] = sum(a);
+    power[i] = {-0.5 * sum(stress_power), -0.5 * sum(viscous_power), -0.5 * sum(artificial_power)};
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
+              std::span<const Matrix<Dim>> correction, const MomentumTerms& terms, MomentumWorkspace<Dim>& w,
+              std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
+  const bool dual = !correction.empty();
+  const auto n = static_cast<std::int64_t>(p.size());
+  w.A.resize(p.size());
+  w.weight.resize(p.size());
+  if (terms.artificial_stress) w.R.resize(p.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>();
+    const double rho = p.density[i];
+    if (dual) {
+      w.A[i] = sigma * correction[i].transpose();
+      w.weight[i] = p.volume(i);
+    } else {
+      w.A[i] = sigma / (rho * rho);
+      w.weight[i] = p.mass[i];
+    }
+    if (terms.artificial_stress) w.R[i] = artificial_stress<Dim>(*terms.artificial_stress, sigma, rho);
+  }
+  const auto run = [&]<bool Viscous, bool Artificial>() {
+    sum_pairs<Dim, Viscous, Artificial>(stencil, p, velocity, dual, terms, w, acceleration, power);
+  };
+  if (terms.viscosity && terms.artificial_stress) run.template operator()<true, true>();
+  else if (terms.viscosity) run.template operator()<true, false>();
+  else if (terms.artificial_stress) run.template operator()<false, true>();
+  else run.template operator()<false, false>();
+}
+
+#define FURROW_INSTANTIATE(Dim)                                                                                       \
+  template void momentum<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const Vector<Dim>>,               \
+                              std::span<const Matrix<Dim>>, const MomentumTerms&, MomentumWorkspace<Dim>&,            \
+                              std::span<Vector<Dim>>, std::span<MomentumPower>);
+FURROW_INSTANTIATE(2)
+FURROW_INSTANTIATE(3)
+#undef FURROW_INSTANTIATE
+
+}  // namespace furrow

@@ -1,0 +1,28 @@
+#include "solver/schemes/xsph.hpp"
+
+namespace furrow {
+
+template <int Dim>
+void xsph_velocity(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, double eps,
+                   std::span<Vector<Dim>> out) {
+  const double h = stencil.smoothing_length;
+  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+    LaneVector<Dim> drift;
+    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    neighbours([&](const Pairs<Dim>& pair) {
+      const Lanes rho = 0.5 * (p.density[i] + gather(p.density.data(), pair.j));
+      const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
+      drift += (gather(p.mass.data(), pair.j) / rho * W) * (gather<Dim>(velocity.data(), pair.j) - v_i);
+    });
+    out[i] = velocity[i] + eps * sum(drift);
+  });
+}
+
+#define FURROW_INSTANTIATE(Dim)                                                                                          \
+  template void xsph_velocity<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const Vector<Dim>>, double, \
+                                   std::span<Vector<Dim>>);
+FURROW_INSTANTIATE(2)
+FURROW_INSTANTIATE(3)
+#undef FURROW_INSTANTIATE
+
+}  // namespace furrow

@@ -1,0 +1,157 @@
+// Lanes: eight particles at a time. Pair loops are written once over Lanes and read like the equation for one pair; the
+// compiler turns each line into the vector instructions of the machine. The width is fixed so that sums have the same order
+// on every machine.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
+#include "solver/tensor/tensor.hpp"
+
+namespace furrow {
+
+inline constexpr int lane_count = 8;
+typedef double Lanes __attribute__((vector_size(lane_count * sizeof(double))));
+typedef std::int32_t LaneIndex __attribute__((vector_size(lane_count * sizeof(std::int32_t))));
+
+constexpr double positive_part(double a) { return a > 0.0 ? a : 0.0; }
+constexpr Lanes positive_part(const Lanes& a) { return a > 0.0 ? a : Lanes{}; }
+
+inline double square_root(double a) { return std::sqrt(a); }
+inline Lanes square_root(const Lanes& a) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Lanes>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(a)));
+#else
+  Lanes root;
+  for (int l = 0; l < lane_count; ++l) root[l] = std::sqrt(a[l]);
+  return root;
+#endif
+}
+
+inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
+
+inline LaneIndex load_index(const std::int32_t* first) {
+  LaneIndex j;
+  std::memcpy(&j, first, sizeof j);
+  return j;
+}
+
+/// array[stride * j + offset] for eight j.
+inline Lanes gather(const double* array, const LaneIndex& j, int stride = 1, int offset = 0) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Lanes>(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(j * stride), array + offset, sizeof(double)));
+#else
+  Lanes values;
+  for (int l = 0; l < lane_count; ++l) values[l] = array[static_cast<std::ptrdiff_t>(stride) * j[l] + offset];
+  return values;
+#endif
+}
+
+/// N components, each of eight particles.
+template <int N>
+struct LaneVector {
+  std::array<Lanes, N> c{};
+  Lanes& operator[](int a) { return c[static_cast<std::size_t>(a)]; }
+  const Lanes& operator[](int a) const { return c[static_cast<std::size_t>(a)]; }
+
+  LaneVector& operator+=(const LaneVector& v) {
+    for (int a = 0; a < N; ++a) (*this)[a] += v[a];
+    return *this;
+  }
+  friend LaneVector operator-(LaneVector u, const LaneVector& v) {
+    for (int a = 0; a < N; ++a) u[a] -= v[a];
+    return u;
+  }
+  friend LaneVector operator*(const Lanes& f, LaneVector v) {
+    for (int a = 0; a < N; ++a) v[a] *= f;
+    return v;
+  }
+};
+
+template <int N>
+Lanes dot(const LaneVector<N>& u, const LaneVector<N>& v) {
+  Lanes s = u[0] * v[0];
+  for (int a = 1; a < N; ++a) s += u[a] * v[a];
+  return s;
+}
+
+/// Rows x columns, each of eight particles; (a, b) = component of row a and column b, stored by columns as Eigen does.
+template <int N>
+struct LaneMatrix {
+  std::array<Lanes, static_cast<std::size_t>(N * N)> c{};
+  Lanes& operator()(int a, int b) { return c[static_cast<std::size_t>(b * N + a)]; }
+  const Lanes& operator()(int a, int b) const { return c[static_cast<std::size_t>(b * N + a)]; }
+
+  /// this += u v^T.
+  void add_outer(const LaneVector<N>& u, const LaneVector<N>& v) {
+    for (int b = 0; b < N; ++b)
+      for (int a = 0; a < N; ++a) (*this)(a, b) += u[a] * v[b];
+  }
+  LaneMatrix& operator+=(const LaneMatrix& m) {
+    for (std::size_t k = 0; k < c.size(); ++k) c[k] += m.c[k];
+    return *this;
+  }
+  friend LaneMatrix operator+(LaneMatrix p, const LaneMatrix& q) { return p += q; }
+  friend LaneMatrix operator*(const Lanes& f, LaneMatrix m) {
+    for (Lanes& element : m.c) element *= f;
+    return m;
+  }
+  friend LaneVector<N> operator*(const LaneMatrix& m, const LaneVector<N>& v) {
+    LaneVector<N> p;
+    for (int b = 0; b < N; ++b)
+      for (int a = 0; a < N; ++a) p[a] += m(a, b) * v[b];
+    return p;
+  }
+};
+
+/// The same number, vector or matrix in all lanes.
+inline Lanes broadcast(double s) { return Lanes{} + s; }
+template <int N>
+LaneVector<N> broadcast(const Vector<N>& v) {
+  LaneVector<N> b;
+  for (int a = 0; a < N; ++a) b[a] = broadcast(v[a]);
+  return b;
+}
+template <int N>
+  requires(N > 1)
+LaneMatrix<N> broadcast(const Matrix<N>& m) {
+  LaneMatrix<N> b;
+  for (std::size_t k = 0; k < b.c.size(); ++k) b.c[k] = broadcast(m.data()[k]);
+  return b;
+}
+
+/// Vectors and matrices of eight particles out of an array of them.
+template <int N>
+LaneVector<N> gather(const Vector<N>* array, const LaneIndex& j) {
+  LaneVector<N> v;
+  for (int a = 0; a < N; ++a) v[a] = gather(array->data(), j, N, a);
+  return v;
+}
+template <int N>
+  requires(N > 1)
+LaneMatrix<N> gather(const Matrix<N>* array, const LaneIndex& j) {
+  LaneMatrix<N> m;
+  for (int k = 0; k < N * N; ++k) m.c[static_cast<std::size_t>(k)] = gather(array->data(), j, N * N, k);
+  return m;
+}
+
+/// Sums over the lanes.
+template <int N>
+Vector<N> sum(const LaneVector<N>& v) {
+  Vector<N> s;
+  for (int a = 0; a < N; ++a) s[a] = sum(v[a]);
+  return s;
+}
+template <int N>
+Matrix<N> sum(const LaneMatrix<N>& m) {
+  Matrix<N> s;
+  for (int k = 0; k < N * N; ++k) s.data()[k] = sum(m.c[static_cast<std::size_t>(k)]);
+  return s;
+}
+
+}  // namespace furrow
