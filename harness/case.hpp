@@ -39,35 +39,35 @@ struct Measurement {
 };
 
 struct Column {
-  std::string label;
+  std::string label{};
   std::string unit = "1";
 };
 using Cell = std::variant<double, std::string>;
 
 /// A table of the report.
 struct Table {
-  std::string name, title;
-  std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows;
+  std::string name{}, title{};
+  std::vector<Column> columns{};
+  std::vector<std::vector<Cell>> rows{};
   void row(std::vector<Cell> cells) { rows.push_back(std::move(cells)); }
 };
 
 /// One curve or cloud of points.
 struct Series {
-  std::string label;
+  std::string label{};
   std::string role = "computed";       ///< computed | reference | experiment | published | bound
-  std::vector<double> x, y;
-  std::vector<double> uncertainty;     ///< standard uncertainty of y; empty when none is stated
-  std::vector<double> colour;          ///< a third quantity, for kind particles
+  std::vector<double> x{}, y{};
+  std::vector<double> uncertainty{};     ///< standard uncertainty of y; empty when none is stated
+  std::vector<double> colour{};          ///< a third quantity, for kind particles
 };
 
 /// A figure of the report: data, never pixels. Units are shown with the labels.
 struct Figure {
-  std::string name, title, caption;
+  std::string name{}, title{}, caption{};
   std::string kind = "lines";          ///< lines | points | particles (equal axes, coloured points)
-  Column x, y, colour;
+  Column x{}, y{}, colour{};
   bool log_x = false, log_y = false;
-  std::vector<Series> series;
+  std::vector<Series> series{};
   Series& add(Series s) { return series.emplace_back(std::move(s)); }
 };
 

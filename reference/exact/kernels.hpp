@@ -1,5 +1,6 @@
 // The smoothing kernels once more, from the polynomial pieces printed in the literature, and what theory says about a kernel:
-// moments, derivative, Fourier transform. Lengths are in units of the smoothing length h unless a function takes h.
+// moments, derivative, Fourier transform. Lengths are in units of the smoothing length h unless
+// a function takes h.
 #pragma once
 
 #include <functional>
@@ -25,6 +26,7 @@ class Kernel {
   double value(double r, double h) const;                   ///< W, 1/m^d
   double derivative(double r, double h) const;              ///< dW/dr, 1/m^(d+1)
   double second_moment() const;                             ///< <x^2>/h^2 = integral of x^2 W, exact
+  double projection(double x) const;                        ///< integral of W over a line at distance x, exact; h = 1
 
  private:
   double radial_moment(int power) const;
@@ -49,8 +51,9 @@ Moments moments(const Radial& W, double radius, int dimension);
 /// Fourier transform of a radial function at wave number k: cosine, Hankel J0 and sinc transform in 1, 2, 3 dimensions.
 double fourier_transform(const Radial& W, double radius, int dimension, double k);
 
-/// The plane transform by another way: the function is projected onto a line (Abel) and the projection's cosine transform taken.
-double fourier_transform_by_projection(const Radial& W, double radius, double k);
+/// The transform of a kernel of the plane (h = 1) by another way than Bessel's function: the cosine transform of its projection
+/// onto a line (Fourier slice theorem). Throws std::invalid_argument in other dimensions.
+double fourier_transform_by_projection(const Kernel& kernel, double k);
 
 /// Closed-form transform of the B-spline of `order` (4 cubic, 6 quintic) of unit knot distance: sinc(k/2)^order on the line;
 /// in space -F1'(k)/k times a factor that makes it one at k = 0. Dimension 1 or 3, k > 0.

@@ -98,15 +98,27 @@ TEST_CASE("transforms of B-splines by quadrature are their closed forms", "[refe
   CHECK_THROWS_AS(b_spline_transform(4, 2, 1.0), std::invalid_argument);
 }
 
+TEST_CASE("a projection is the integral along lines", "[reference]") {
+  for (const std::string& name : all_kernels) {
+    const Kernel W = kernel(name, 2);
+    for (const double x : {0.0, 0.3, 1.0, 1.7}) {
+      const double summed = 2.0 * integrate([&](double y) { return W.value(std::hypot(x, y), 1.0); }, 0.0, W.support());
+      CHECK(W.projection(x) == Approx(summed).margin(1e-11));
+    }
+    CHECK(W.projection(W.support()) == 0.0);
+  }
+}
+
 TEST_CASE("the Hankel transform is the transform of the projection", "[reference]") {
   for (const std::string& name : all_kernels) {
     const Kernel W = kernel(name, 2);
     const Radial radial = [&](double r) { return W.value(r, 1.0); };
     for (const double k : {0.5, 3.0, 7.5}) {
-      const double projected = fourier_transform_by_projection(radial, W.support(), k);
-      CHECK(fourier_transform(radial, W.support(), 2, k) == Approx(projected).margin(1e-10));
+      const double projected = fourier_transform_by_projection(W, k);
+      CHECK(fourier_transform(radial, W.support(), 2, k) == Approx(projected).margin(1e-12));
     }
   }
+  CHECK_THROWS_AS(fourier_transform_by_projection(kernel("cubic_spline", 3), 1.0), std::invalid_argument);
 }
 
 TEST_CASE("a transform that turns negative is found, one that does not is not", "[reference]") {
