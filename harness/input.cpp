@@ -439,10 +439,36 @@ void put(toml::table& table, std::string_view key, const toml::node& value) {
 
 }  // namespace
 
-void Parameters::assign(std::string_view key, const Parameters& from, std::string_view from_key, std::size_t index) {
+namespace {
+
+// The table that a dotted path leads to, made where it is missing, and what remains of the path: the key in it.
+std::pair<toml::table*, std::string_view> descend(toml::table& root, std::string_view path, const std::string& origin) {
+  toml::table* table = &root;
+  std::string_view rest = path;
+  for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+    const std::string_view key = rest.substr(0, dot);
+    toml::node* below = table->get(key);
+    if (!below) below = &table->insert_or_assign(key, toml::table{}).first->second;
+    if (!below->is_table()) throw InputError(origin, 0, path, fmt::format("found '{}', which is no table here, expected the path of a key", key));
+    table = below->as_table();
+    rest.remove_prefix(dot + 1);
+  }
+  if (rest.empty()) throw InputError(origin, 0, path, "found no key, expected one, such as parameters.kernel");
+  return {table, rest};
+}
+
+void forget_places(Places& places, const std::string& path) {
+  for (const auto& [below, place] : places_below(places, path, path)) places.erase(below);
+}
+
+}  // namespace
+
+void Parameters::assign(std::string_view path, const Parameters& from, std::string_view from_key, std::size_t index) {
   const std::string indexed = fmt::format("{}[{}]", from_key, index);
-  put(node_->table, key, (*from.node_->need(from_key, plain_list).as_array())[index]);
-  for (auto& [path, place] : places_below(from.node_->places, indexed, std::string(key))) node_->places[path] = place;
+  const auto [table, key] = descend(node_->table, path, file());
+  put(*table, key, (*from.node_->need(from_key, plain_list).as_array())[index]);
+  forget_places(node_->places, std::string(path));
+  node_->places.merge(places_below(from.node_->places, indexed, std::string(path)));
 }
 
 void Parameters::assign(std::string_view path, std::string_view value, const std::string& origin) {
@@ -452,23 +478,13 @@ void Parameters::assign(std::string_view path, std::string_view value, const std
   } catch (const toml::parse_error&) {
     parsed.insert_or_assign("value", std::string(value));
   }
-  toml::table* table = &node_->table;
-  std::string_view rest = path;
-  for (std::size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
-    toml::node* below = table->get(rest.substr(0, dot));
-    if (!below) below = &table->insert_or_assign(rest.substr(0, dot), toml::table{}).first->second;
-    if (!below->is_table())
-      throw InputError(origin, 0, path, fmt::format("'{}' is no table here, expected the path of a key in the case, such as parameters.kernel",
-                                                    rest.substr(0, dot)));
-    table = below->as_table();
-    rest.remove_prefix(dot + 1);
-  }
-  if (rest.empty()) throw InputError(origin, 0, path, "expected a key, such as parameters.kernel");
-  put(*table, rest, *parsed.get("value"));
-  const std::string whole(path);
-  for (auto it = node_->places.lower_bound(whole); it != node_->places.end() && it->first.starts_with(whole);) it = node_->places.erase(it);
-  record_places(*table->get(rest), whole, origin, node_->places);
-  for (auto it = node_->places.lower_bound(whole); it != node_->places.end() && it->first.starts_with(whole); ++it) it->second.line = 0;
+  const auto [table, key] = descend(node_->table, path, origin);
+  put(*table, key, *parsed.get("value"));
+  forget_places(node_->places, std::string(path));
+  Places places;
+  record_places(*parsed.get("value"), std::string(path), origin, places);
+  for (auto& [below, place] : places) place.line = 0;
+  node_->places.merge(places);
 }
 
 std::string Parameters::json() const {

@@ -92,9 +92,9 @@ class Parameters {
 
   /// The same table with a fresh record of used keys, to be changed by the two functions below.
   Parameters copy() const;
-  /// Puts the value `from.key[index]` at `key`; messages about it name the place where it stands in `from`.
-  void assign(std::string_view key, const Parameters& from, std::string_view from_key, std::size_t index);
-  /// Puts a value written as TOML at a dotted path ("resolution.h_over_dx"); text that is no TOML value is taken as a string.
+  /// Puts the value `from.key[index]` at a dotted path; messages about it name the place where it stands in `from`.
+  void assign(std::string_view path, const Parameters& from, std::string_view from_key, std::size_t index);
+  /// Puts a value written as TOML at a dotted path; text that is no TOML value is taken as a string.
   void assign(std::string_view path, std::string_view value, const std::string& origin);
   std::string json() const;                     ///< the table as it was read
 
