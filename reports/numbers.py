@@ -1,0 +1,192 @@
+"""Numbers, units and symbols as a reader wants them: four digits that mean something, SI signs, real minus signs."""
+
+import math
+import re
+
+from markupsafe import Markup, escape
+
+MINUS = "\u2212"
+SUPERSCRIPTS = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
+GREEK = {name: chr(code) for name, code in {
+    "alpha": 0x3B1, "beta": 0x3B2, "gamma": 0x3B3, "delta": 0x3B4, "epsilon": 0x3B5, "zeta": 0x3B6, "eta": 0x3B7, "theta": 0x3B8,
+    "kappa": 0x3BA, "lambda": 0x3BB, "mu": 0x3BC, "nu": 0x3BD, "xi": 0x3BE, "pi": 0x3C0, "rho": 0x3C1, "sigma": 0x3C3, "tau": 0x3C4,
+    "phi": 0x3C6, "chi": 0x3C7, "psi": 0x3C8, "omega": 0x3C9, "Gamma": 0x393, "Delta": 0x394, "Sigma": 0x3A3, "Omega": 0x3A9,
+    "nabla": 0x2207, "sum": 0x2211, "infinity": 0x221E, "inf": 0x221E}.items()}
+
+
+def number(x, digits=4):
+    """Four significant digits without padding zeros; 1.3e−12 for the very small and the very large."""
+    if x is None:
+        return "–"
+    if isinstance(x, bool):
+        return "yes" if x else "no"
+    if isinstance(x, int) and abs(x) < 10**15:
+        return f"{x:,}".replace(",", "\u202f").replace("-", MINUS) if abs(x) >= 10000 else str(x).replace("-", MINUS)
+    x = float(x)
+    if not math.isfinite(x):
+        return str(x).replace("-", MINUS)
+    if x == 0.0:
+        return "0"
+    if 1e-4 <= abs(x) < 1e5:
+        magnitude = math.floor(math.log10(abs(x)))
+        decimals = max(0, digits - 1 - magnitude)
+        text = f"{x:.{decimals}f}"
+        text = text.rstrip("0").rstrip(".") if "." in text else text
+    else:
+        mantissa, exponent = f"{x:.{digits - 1}e}".split("e")
+        mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+        text = f"{mantissa}e{int(exponent)}"
+    return text.replace("-", MINUS)
+
+
+def percent(fraction):
+    """A share in percent with two or three digits: 0.34 -> 34 %, 2.4 -> 240 %."""
+    if fraction is None:
+        return "–"
+    if not math.isfinite(fraction):
+        return "no bound"
+    p = 100.0 * fraction
+    if p == 0.0:
+        return "0 %"
+    if p < 0.1:
+        return "< 0.1 %"
+    if p >= 100000.0:
+        return f"{number(fraction, 2)} ×"
+    digits = 1 if p < 10.0 else 0
+    return f"{p:.{digits}f} %"
+
+
+def with_uncertainty(value, uncertainty):
+    """16.21 ± 0.10: the uncertainty to two digits, the value to the same decimal; without one, the value alone."""
+    if value is None:
+        return "–"
+    if not uncertainty or not math.isfinite(uncertainty) or not 1e-4 <= abs(value) < 1e5:
+        return number(value) + (f" ± {number(uncertainty, 2)}" if uncertainty else "")
+    decimals = max(0, 1 - math.floor(math.log10(uncertainty)))
+    if decimals > 8:
+        return f"{number(value)} ± {number(uncertainty, 2)}"
+    return f"{value:.{decimals}f} ± {uncertainty:.{decimals}f}".replace("-", MINUS)
+
+
+def unit(text):
+    """kg/m^3 -> kg/m³, um -> µm, deg -> °; nothing for a pure number."""
+    text = (text or "").strip()
+    if text in ("", "1", "-"):
+        return ""
+    text = re.sub(r"\^\(?([+-]?\d+)\)?", lambda m: m.group(1).translate(SUPERSCRIPTS), text)
+    text = re.sub(r"\bum\b", "µm", text)
+    text = re.sub(r"\bus\b", "µs", text)
+    text = re.sub(r"\bdeg\b", "°", text)
+    text = re.sub(r"\bohm\b", "Ω", text, flags=re.IGNORECASE)
+    return text.replace("*", "·").replace("-", MINUS)
+
+
+def quantity(value, unit_text):
+    shown = unit(unit_text)
+    return f"{number(value)}\u202f{shown}" if shown else number(value)
+
+
+def with_unit(label, unit_text):
+    """An axis or column label: 'length, mm'."""
+    shown = unit(unit_text)
+    return f"{label}, {shown}" if shown else label
+
+
+def _greek(text):
+    return re.sub(r"(?<![A-Za-z])(" + "|".join(sorted(GREEK, key=len, reverse=True)) + r")(?![A-Za-z])",
+                  lambda m: GREEK[m.group(1)], text)
+
+
+def symbol(text):
+    """A formula sign as HTML: L_f -> L with subscript f, h/dx -> h/Δx, rho_0 -> ρ with subscript 0; letters in italics."""
+    text = re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", "")))
+    parts, position = [], 0
+    for match in re.finditer(r"([_^])(\{[^}]*\}|[^\W_]+|[*+\-∞])", text):
+        parts.append(escape(text[position:match.start()]))
+        tag = "sub" if match.group(1) == "_" else "sup"
+        parts.append(Markup(f"<{tag}>{{}}</{tag}>").format(match.group(2).strip("{}")))
+        position = match.end()
+    parts.append(escape(text[position:]))
+    return Markup("<i>{}</i>").format(Markup("").join(parts))
+
+
+def plain_symbol(text):
+    """A formula sign for a figure or an attribute, where there is no markup."""
+    return re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", ""))).replace("{", "").replace("}", "")
+
+
+def duration(seconds):
+    """0.42 s, 12 s, 3 min 12 s, 1 h 04 min."""
+    if seconds is None:
+        return "–"
+    if seconds < 0.001:
+        return "< 1 ms"
+    if seconds < 1.0:
+        return f"{1000.0 * seconds:.0f} ms"
+    if seconds < 10.0:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02d} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
+
+
+def size(bytes_):
+    """Bytes in binary multiples: 512 MiB."""
+    value = float(bytes_)
+    for name in ("B", "KiB", "MiB", "GiB"):
+        if value < 1024.0 or name == "GiB":
+            return f"{value:.0f} {name}" if value >= 10.0 or name == "B" else f"{value:.1f} {name}"
+        value /= 1024.0
+
+
+_PREFIXES = {"m": ((1.0, "m"), (1e3, "mm"), (1e6, "µm")), "s": ((1.0, "s"), (1e3, "ms"), (1e6, "µs")),
+             "Pa": ((1e-9, "GPa"), (1e-6, "MPa"), (1e-3, "kPa"), (1.0, "Pa"))}
+
+
+def prefixed(largest, unit_text):
+    """(factor, unit) that brings a largest magnitude in m, s or Pa into readable numbers; (1, unit) for anything else."""
+    for factor, name in _PREFIXES.get(unit_text, ()):
+        if largest * factor >= 0.5:
+            return factor, name
+    return (_PREFIXES[unit_text][-1] if unit_text in _PREFIXES and largest > 0.0 else (1.0, unit_text))
+
+
+STATES = {
+    "asymptotic": "asymptotic: the error falls at a steady rate as the spacing is refined",
+    "plateau": "plateau: finer spacing no longer lowers the error at this h/Δx",
+    "oscillatory": "oscillatory: the error goes up and down, so that no order can be claimed",
+    "diverging": "diverging: the error grows as the spacing is refined",
+    "round-off": "round-off: the error is as small as the arithmetic allows, so that no order can be claimed",
+    "undetermined": "undetermined: too few spacings or too much scatter for a statement",
+}
+
+
+def order(ladder):
+    """Observed order with its standard error; where the state allows no order, a dash: a bare order is never printed."""
+    if ladder["order"] is None or ladder["state"] in ("round-off", "undetermined"):
+        return "–"
+    text = f"{ladder['order']:.2f}"
+    if ladder["order_stderr"] is not None:
+        text += f" ± {ladder['order_stderr']:.2f}"
+    return text.replace("-", MINUS)
+
+
+def band(ends, unit_text="", factor=1.0):
+    """A band in words that fit a table: [−3, 3] %, ≤ 1e−10, ≥ 1.7."""
+    if ends is None:
+        return "not gated"
+    low, high = ends
+    shown = unit(unit_text)
+    tail = f"\u202f{shown}" if shown else ""
+    if low is None and high is None:
+        return "any finite number"
+    if low is None:
+        return f"≤ {number(factor * high)}{tail}"
+    if high is None:
+        return f"≥ {number(factor * low)}{tail}"
+    if low == -high:
+        return f"± {number(factor * high)}{tail}"
+    return f"{number(factor * low)} … {number(factor * high)}{tail}"

@@ -1,0 +1,310 @@
+"""Pages: one index, one page a case, written beside the old report and put in its place in one step."""
+
+import ctypes
+import datetime
+import errno
+import multiprocessing
+import os
+import re
+import shutil
+from pathlib import Path
+from urllib.parse import quote
+
+import jinja2
+from markupsafe import Markup
+
+from reports import numbers, results, summary
+from reports.figures import history, ladder, lines, particles, snapshot
+
+HERE = Path(__file__).resolve().parent
+WORDS = {"pass": "pass", "fail": "fail", "error": "error", "known-gap": "known gap", "skipped": "skipped", "reported": "reported"}
+CLASS_WORDS = {
+    "exact": "closed form or quadrature to round-off",
+    "manufactured": "manufactured solution",
+    "independent": "a second, unrelated computation",
+    "experiment": "measured in an experiment",
+    "published": "numbers of another code or paper",
+    "self": "own earlier result: shows change, verifies nothing",
+}
+
+
+class _Absent(jinja2.StrictUndefined):
+    """An optional key of a result that is not there: false when asked, an error when printed."""
+
+    __slots__ = ()
+    __bool__ = jinja2.Undefined.__bool__
+
+
+class Figure:
+    """One figure of a page: what draws it, the file it goes to and what the page says about it."""
+
+    def __init__(self, file, title, caption, alt, draw, arguments):
+        self.file, self.title, self.caption, self.alt = file, title, caption, alt
+        self.draw, self.arguments = draw, arguments
+        self.fault = None   # why it could not be drawn
+
+
+def build(folder, jobs=None):
+    """Writes `folder`/report and returns the path of its index. ReportError when `folder` is not that of a run."""
+    run = results.load(folder)
+    target = run.folder / "report"
+    _sweep(run.folder)
+    work = run.folder / f".report-{os.getpid()}"
+    work.mkdir()
+    try:
+        _write(run, work, jobs)
+        _replace(work, target)
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    return target / "index.html"
+
+
+def _sweep(root):
+    """Removes what killed reports left behind."""
+    for left in root.glob(".report-*"):
+        process = left.name.removeprefix(".report-")
+        if process.isdigit() and not Path(f"/proc/{process}").exists():
+            shutil.rmtree(left, ignore_errors=True)
+
+
+def _replace(new, target):
+    """Puts folder `new` in the place of `target` in one step: the two are exchanged, and the old one is left under the name `new`."""
+    if not target.exists():
+        os.rename(new, target)
+        return
+    libc = ctypes.CDLL(None, use_errno=True)
+    at_working_directory, exchange = -100, 2
+    if libc.renameat2(at_working_directory, os.fsencode(new), at_working_directory, os.fsencode(target), exchange) == 0:
+        return
+    code = ctypes.get_errno()
+    if code not in (errno.EINVAL, errno.ENOSYS):
+        raise OSError(code, os.strerror(code), str(target))
+    aside = new.with_name(new.name + "-old")   # a file system that cannot exchange: the old report is aside for one rename
+    os.rename(target, aside)
+    os.rename(new, target)
+    shutil.rmtree(aside, ignore_errors=True)
+
+
+def stamp(provenance):
+    """'furrow 1a2b3c4d5e-dirty · 2026-01-31' of what the run's own files say."""
+    commit = str(provenance.get("commit", "unknown commit"))
+    commit = commit[:10] + ("-dirty" if provenance.get("dirty") else "")
+    return f"furrow {commit} · {str(provenance.get('started', 'unknown date'))[:10]}"
+
+
+def slug(text):
+    return re.sub(r"[^A-Za-z0-9._-]+", "-", text).strip(".-") or "unnamed"
+
+
+def _assign_pages(cases):
+    taken = set()
+    for case in cases:
+        page = "cases/" + "/".join(slug(part) for part in case.id.split("/"))
+        while page in taken:
+            page += "-again"
+        taken.add(page)
+        case.page = page + ".html"
+
+
+def figures_of(case, provenance):
+    """(ladders by metric name, time series, snapshots, own figures) of a case, each a Figure."""
+    mark = stamp(provenance)
+    base = "figures/" + case.page.removeprefix("cases/").removesuffix(".html")
+    taken = set()
+
+    def file(name):
+        path = f"{base}/{slug(name)}"
+        while path in taken:
+            path += "-again"
+        taken.add(path)
+        return path + ".svg"
+
+    convergence = {}
+    for metric, _ in case.metrics:
+        steps = ladder.ladders_of(metric)
+        if steps:
+            said = "; ".join(ladder.name(s) for s in steps)
+            convergence[metric["name"]] = Figure(file(f"ladder-{metric['name']}"), f"Convergence of {metric['name'].replace('_', ' ')}", "",
+                                                 f"Convergence of {metric['name']} over particle spacing. {said}.", ladder.draw, (metric, mark))
+    own = []
+    for data in case.data.get("figures", []):
+        what = ", ".join(f"{s['label']} ({s['role']})" for s in data["series"])
+        draw = particles.draw if data["kind"] == "particles" else lines.draw
+        own.append(Figure(file(data["name"]), data["title"], data.get("caption", ""),
+                          f"{data['title']}. {data['y']['label']} over {data['x']['label']}: {what}.", draw, (data, mark)))
+    series, files = [], case.data.get("files", {})
+    if "history" in files:
+        path = case.folder / files["history"]
+        try:
+            for i, (unit, names) in enumerate(history.groups(path)):
+                words = ", ".join(n.replace("_", " ") for n in names)
+                series.append(Figure(file(f"history-{i + 1}"), f"History of {words}", "", f"{words} over time.", history.draw,
+                                     (path, unit, names, mark)))
+        except (OSError, KeyError) as error:
+            broken = Figure("", "Time series", "", "", None, ())
+            broken.fault = f"{files['history']} could not be read: {error}"
+            series.append(broken)
+    pictures = []
+    found = files.get("snapshots", [])
+    for name, word in ((found[-1], "Last" if len(found) > 1 else "The"), *([(found[0], "First")] if len(found) > 1 else [])) if found else ():
+        pictures.append(Figure(file(f"snapshot-{name}"), f"{word} snapshot", name, f"Particles of snapshot {name}.", snapshot.draw,
+                               (case.folder / name, mark)))
+    return convergence, series, pictures, own
+
+
+def _draw(task):
+    draw, arguments, path = task
+    try:
+        text = draw(*arguments)
+    except (OSError, KeyError, ValueError, TypeError, OverflowError) as error:   # bad data spoils its own figure, and the page says so
+        return f"{type(error).__name__}: {error}"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return None
+
+
+def draw_all(figures, root, jobs):
+    """Draws every figure below `root`, in up to `jobs` processes."""
+    todo = [f for f in figures if f.draw]
+    tasks = [(f.draw, f.arguments, root / f.file) for f in todo]
+    jobs = min(jobs or min(2, os.cpu_count() or 1), max(1, len(tasks) // 8))
+    if jobs == 1:
+        faults = [_draw(task) for task in tasks]
+    else:
+        with multiprocessing.get_context("fork").Pool(jobs) as pool:
+            faults = pool.map(_draw, tasks, chunksize=4)
+    for figure, fault in zip(todo, faults):
+        figure.fault = fault
+
+
+def _write(run, work, jobs):
+    _assign_pages(run.cases)
+    drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance) for case in run.cases}
+    draw_all([f for c, s, p, o in drawn.values() for f in (*c.values(), *s, *p, *o)], work, jobs)
+    shutil.copytree(HERE / "assets", work / "assets")
+
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=_Absent)
+    environment.filters.update(number=numbers.number, unit=numbers.unit, symbol=numbers.symbol,
+                               size=numbers.size, percent=numbers.percent, path=lambda p: quote(p), words=lambda t: t.replace("_", " "))
+    environment.globals.update(words=WORDS, class_words=CLASS_WORDS, verdicts=results.VERDICTS, classes=results.CLASSES,
+                               states=numbers.STATES, with_uncertainty=numbers.with_uncertainty, band_words=band_words,
+                               error_words=error_words, bar=bar, order=numbers.order, quantity=numbers.quantity, ladders_of=ladder.ladders_of,
+                               with_unit=numbers.with_unit, duration=numbers.duration, flatten=flatten, expiry=expiry, when=when, spacing_words=spacing_words,
+                               is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
+    common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run)}
+    (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
+    page = environment.get_template("case.html")
+    for i, case in enumerate(run.cases):
+        convergence, series, pictures, own = drawn[case.page]
+        lead = next((f for f, d in zip(own, case.data.get("figures", [])) if d["kind"] == "particles"), None)
+        lead = lead or next(iter(pictures), None) or next(iter(own), None)
+        path = work / case.page
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(page.render(
+            root="../" * case.page.count("/"), case=case, convergence=convergence, series=series, lead=lead,
+            others=[f for f in (*pictures, *own) if f is not lead], previous=run.cases[i - 1] if i else None,
+            following=run.cases[i + 1] if i + 1 < len(run.cases) else None, position=i + 1, **common), encoding="utf-8")
+
+
+def _in_percent(metric):
+    """Relative errors whose band is wide enough to be read in percent."""
+    ends = [abs(e) for e in metric["band"] or [] if e]
+    return "relative" in metric["norm"] and bool(ends) and max(ends) >= 1e-3
+
+
+def _band_unit(metric):
+    return "1" if "relative" in metric["norm"] else metric["unit"]
+
+
+def error_words(metric):
+    if metric["error"] is None:
+        return "–"
+    if _in_percent(metric):
+        return f"{numbers.number(100.0 * metric['error'], 3)}\u202f%"
+    return numbers.quantity(metric["error"], _band_unit(metric))
+
+
+def band_words(metric):
+    if _in_percent(metric):
+        return numbers.band(metric["band"], "%", 100.0)
+    return numbers.band(metric["band"], _band_unit(metric))
+
+
+def bar(margin, verdict):
+    """Small graphic: the band as a track between its ends, a mark where the number lies, outside it where it is outside."""
+    if margin is None or margin.band == (None, None):
+        return Markup("")
+    low, high = margin.band
+    left, right, middle = 18.0, 102.0, 8.0
+    parts = [f'<rect class="track" x="{left if low is not None else 2:g}" y="{middle - 3:g}" '
+             f'width="{(right if high is not None else 118) - (left if low is not None else 2):g}" height="6" rx="3"/>']
+    for end, x in ((low, left), (high, right)):
+        if end is not None:
+            parts.append(f'<line class="end" x1="{x:g}" x2="{x:g}" y1="1.5" y2="14.5"/>')
+    place = margin.place
+    if place is None:
+        parts.append('<text class="none" x="60" y="11.6" text-anchor="middle">no number</text>')
+        said = "no number"
+    else:
+        x = min(115.0, max(5.0, left + place * (right - left)))
+        out = "" if margin.inside else " out"
+        shape = f'<circle class="mark" cx="{x:.1f}" cy="{middle:g}" r="4"/>' if margin.inside else \
+            f'<path class="mark" d="M{x - 4:.1f} {middle - 4:g}l8 8m0 -8l-8 8"/>'
+        parts.append(f'<g class="at{out}">{shape}</g>')
+        said = f"{'inside' if margin.inside else 'outside'} its band" + \
+            (f", {numbers.percent(margin.use)} of it used" if margin.use is not None else "")
+    return Markup(f'<svg class="bar" viewBox="0 0 120 16" role="img" aria-label="{said}"><title>{said}</title>{"".join(parts)}</svg>')
+
+
+def flatten(parameters, prefix=""):
+    """Parameters as rows (key, text): numbers with units in one cell, tables under dotted keys."""
+    for key, value in parameters.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, dict) and set(value) == {"value", "unit"}:
+            yield name, _plain(value["value"], value["unit"])
+        elif isinstance(value, dict):
+            yield from flatten(value, name + ".")
+        elif isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
+            for i, item in enumerate(value):
+                yield from flatten(item, f"{name}[{i}].")
+        else:
+            yield name, _plain(value)
+
+
+def _plain(value, unit="1"):
+    shown = ", ".join(_plain(v) for v in value) if isinstance(value, list) else \
+        numbers.number(value, 8) if isinstance(value, (int, float)) else str(value)
+    tail = numbers.unit(unit)
+    return f"{shown}\u202f{tail}" if tail else shown
+
+
+def spacing_words(metric):
+    """'at Δx = 1 mm, h/Δx = 1.2' for a metric of one resolution."""
+    at = metric.get("at", {})
+    parts = []
+    if at.get("spacing"):
+        factor, unit = numbers.prefixed(at["spacing"], "m")
+        parts.append(f"Δx = {numbers.quantity(factor * at['spacing'], unit)}")
+    if at.get("h_over_dx"):
+        parts.append(f"h/Δx = {numbers.number(at['h_over_dx'])}")
+    return "at " + ", ".join(parts) if parts else ""
+
+
+def expiry(case, run):
+    """(date, whether the run was later) of a known gap that states 'expires 2026-12-31' or 'until 2026-12-31' in its reason."""
+    match = re.search(r"\b(?:expir\w*|until|expiry:?)\s+(?:on\s+)?(\d{4}-\d{2}-\d{2})", case.reason)
+    if not match:
+        return None, False
+    started = str(run.provenance.get("started", ""))[:10]
+    return match.group(1), bool(started) and started > match.group(1)
+
+
+def when(text):
+    """An ISO time as '31 January 2026, 14:05'; anything else as it is."""
+    try:
+        moment = datetime.datetime.fromisoformat(str(text).replace("Z", "+00:00"))
+    except ValueError:
+        return str(text)
+    zone = " UTC" if moment.utcoffset() == datetime.timedelta(0) else ""
+    return f"{moment.day} {moment:%B %Y, %H:%M}{zone}"
