@@ -94,8 +94,6 @@ Handle text_type(std::size_t length) {
 Handle creation_list(hid_t kind) {
   const auto list = own(H5Pcreate(kind), H5Pclose);
   H5Pset_obj_track_times(*list, false);
-  if (kind == H5P_GROUP_CREATE || kind == H5P_FILE_CREATE)
-    H5Pset_link_creation_order(*list, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   return list;
 }
 
@@ -141,15 +139,42 @@ void Location::set_attribute(const std::string& name, std::span<const std::int64
   check(H5Awrite(*attribute, H5T_NATIVE_INT64, values.data()), action);
 }
 
+void Location::set_attribute(const std::string& name, const std::vector<std::string>& texts) {
+  const std::string action = "write attribute '" + name + "' of " + path_;
+  std::size_t length = 1;
+  for (const auto& text : texts) {
+    refuse_null(file_, "attribute '" + name + "' of " + path_, text);
+    length = std::max(length, text.size());
+  }
+  std::string padded;
+  for (const auto& text : texts) padded += text + std::string(length - text.size(), '\0');
+  const auto type = text_type(length);
+  const hsize_t count = texts.size();
+  const auto space = check(H5Screate_simple(1, &count, nullptr), H5Sclose, action);
+  const auto attribute = check(H5Acreate2(id(), name.c_str(), *type, *space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
+  check(H5Awrite(*attribute, *type, padded.data()), action);
+}
+
 std::string Location::text_attribute(const std::string& name) const {
+  const auto texts = texts_attribute(name);
+  if (texts.size() != 1) throw FileError(file_, "attribute '" + name + "' of " + path_ + " is not one text");
+  return texts.front();
+}
+
+std::vector<std::string> Location::texts_attribute(const std::string& name) const {
   const std::string action = "read attribute '" + name + "' of " + path_;
   const auto attribute = check(H5Aopen(id(), name.c_str(), H5P_DEFAULT), H5Aclose, action);
   const auto type = check(H5Aget_type(*attribute), H5Tclose, action);
   if (H5Tget_class(*type) != H5T_STRING || H5Tis_variable_str(*type) > 0)
     throw FileError(file_, "attribute '" + name + "' of " + path_ + " is not a text of fixed length");
-  std::string text(H5Tget_size(*type), '\0');
-  check(H5Aread(*attribute, *type, text.data()), action);
-  return strip_padding(std::move(text));
+  const auto space = check(H5Aget_space(*attribute), H5Sclose, action);
+  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(*space));
+  const std::size_t length = H5Tget_size(*type);
+  std::string padded(count * length, '\0');
+  check(H5Aread(*attribute, *type, padded.data()), action);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(strip_padding(padded.substr(i * length, length)));
+  return texts;
 }
 
 std::vector<std::int64_t> Location::integer_attribute(const std::string& name) const {
@@ -248,12 +273,7 @@ std::vector<std::string> Group::names() const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  const std::string action = "list " + path();
-  const auto list = check(H5Gget_create_plist(id()), H5Pclose, action);
-  unsigned order = 0;
-  check(H5Pget_link_creation_order(*list, &order), action);
-  const auto index = (order & H5P_CRT_ORDER_TRACKED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
-  check(H5Literate(id(), index, H5_ITER_INC, nullptr, collect, &found), action);
+  check(H5Literate(id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &found), "list " + path());
   return found;
 }
 

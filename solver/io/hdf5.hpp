@@ -27,7 +27,9 @@ class Location {
   /// Attributes. Texts are stored with fixed length (UTF-8, null-padded), as VTKHDF wants them.
   void set_attribute(const std::string& name, const std::string& text);
   void set_attribute(const std::string& name, std::span<const std::int64_t> values);
+  void set_attribute(const std::string& name, const std::vector<std::string>& texts);
   std::string text_attribute(const std::string& name) const;
+  std::vector<std::string> texts_attribute(const std::string& name) const;
   std::vector<std::int64_t> integer_attribute(const std::string& name) const;
 
   const std::string& path() const { return path_; }
@@ -79,11 +81,11 @@ class Group : public Location {
   Dataset write_text(const std::string& name, const std::string& text);
   Dataset dataset(const std::string& name) const;
 
-  /// Names of groups and datasets, in the order they were created where the file keeps it (Output does), else by alphabet.
+  /// Names of groups and datasets, by alphabet.
   std::vector<std::string> names() const;
 };
 
-/// A new HDF5 file in memory, with the order of creation kept and no time stamps: same content, same bytes.
+/// A new HDF5 file in memory, without time stamps: same content, same bytes.
 class Output {
  public:
   /// `file` names the destination in errors; nothing is touched before commit().

@@ -47,7 +47,7 @@ HistoryTable read_history(const std::filesystem::path& file) {
     throw FileError(file, fmt::format("has history version {}; this program reads version {}",
                                       version.empty() ? 0 : version.front(), history_version));
   HistoryTable table;
-  for (const auto& name : root.names()) {
+  for (const auto& name : root.texts_attribute("columns")) {
     const auto dataset = root.dataset(name);
     table.columns.push_back({name, dataset.text_attribute("symbol"), dataset.text_attribute("unit"),
                              dataset.text_attribute("description")});
@@ -107,6 +107,9 @@ void History::flush() {
   auto& root = output.root();
   root.set_attribute("format", history_format);
   root.set_attribute("version", std::vector{history_version});
+  std::vector<std::string> names;
+  for (const auto& column : table_.columns) names.push_back(column.name);
+  root.set_attribute("columns", names);
   for (std::size_t c = 0; c < table_.columns.size(); ++c) {
     const auto& column = table_.columns[c];
     auto dataset = root.write(column.name, table_.values[c]);

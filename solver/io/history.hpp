@@ -1,4 +1,5 @@
-// Histories: quantities over time in an HDF5 file, one dataset a column under "/", `time` first.
+// Histories: quantities over time in an HDF5 file, one dataset a column under "/". Each has the attributes `unit`, `symbol` and
+// `description`; the attribute `columns` of "/" gives their order, `time` first (HDF5 itself lists names by alphabet).
 #pragma once
 
 #include <chrono>

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -72,6 +73,13 @@ inline auto contains(const std::string& part) {
 #else
   return Catch::Matchers::Contains(part);
 #endif
+}
+
+/// Where hidden test cases (tag [.write-files]) put what the Python tests read; see conftest.py.
+inline std::filesystem::path folder_of_python_tests() {
+  const char* folder = std::getenv("FURROW_TEST_FOLDER");
+  if (folder == nullptr) throw std::runtime_error("FURROW_TEST_FOLDER is not set: run pytest instead");
+  return folder;
 }
 
 /// The message of the FileError that `action` throws; empty if it throws none.

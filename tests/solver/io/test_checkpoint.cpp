@@ -170,3 +170,7 @@ TEST_CASE("a name or type that a checkpoint does not have is an error that says 
   CHECK_THROWS_AS(checkpoint.put_text("", "x"), std::invalid_argument);
   CHECK_THROWS_AS(checkpoint.put_text("zero", std::string("a\0b", 3)), std::invalid_argument);
 }
+
+TEST_CASE("write the checkpoint that test_h5py.py reads", "[.write-files]") {
+  example().write(test::folder_of_python_tests() / "checkpoint.h5");
+}

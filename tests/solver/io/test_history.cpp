@@ -166,3 +166,9 @@ TEST_CASE("a file that is no history is named with what it is", "[io][history]")
     CHECK_THAT(file_error([&] { read_history(file); }), contains(file.string()) && contains("attribute 'format'"));
   }
 }
+
+TEST_CASE("write the history that test_h5py.py reads", "[.write-files]") {
+  History history(test::folder_of_python_tests() / "history.h5", columns, never);
+  for (int i = 0; i < 10; ++i) history.append(0.25 * i, std::array{-1.0 * i, 100.0 + i});
+  history.flush();
+}

@@ -1,7 +1,7 @@
 // Snapshots: layout and values by our own reader; test_vtkhdf.py reads the same file as ParaView does.
 #include "solver/io/snapshot.hpp"
 
-#include <cstdlib>
+#include <cmath>
 #include <limits>
 
 #include "solver/io/hdf5.hpp"
@@ -111,10 +111,9 @@ TEST_CASE("a full disk while a snapshot is written leaves the earlier one", "[io
   CHECK(scratch.files() == 1);
 }
 
-TEST_CASE("write the snapshots that test_vtkhdf.py reads", "[.write-snapshot]") {
-  const char* folder = std::getenv("FURROW_SNAPSHOT_FOLDER");
-  REQUIRE(folder != nullptr);
-  write_snapshot(std::filesystem::path(folder) / "plane.vtkhdf", example(2));
-  write_snapshot(std::filesystem::path(folder) / "space.vtkhdf", example(3));
-  write_snapshot(std::filesystem::path(folder) / "empty.vtkhdf", example(3, 0));
+TEST_CASE("write the snapshots that test_vtkhdf.py reads", "[.write-files]") {
+  const auto folder = test::folder_of_python_tests();
+  write_snapshot(folder / "plane.vtkhdf", example(2));
+  write_snapshot(folder / "space.vtkhdf", example(3));
+  write_snapshot(folder / "empty.vtkhdf", example(3, 0));
 }

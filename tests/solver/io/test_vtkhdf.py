@@ -2,28 +2,14 @@
 
 The numbers are the formulas of test_snapshot.cpp, written by its hidden test case.
 """
-import os
-import pathlib
-import subprocess
-
 import h5py
 import numpy as np
 import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-PROGRAM = pathlib.Path(os.environ.get("FURROW_TESTS", ROOT / "build" / "release" / "furrow-tests"))
 COUNT = 7
 VTK_VERTEX = 1
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    path = tmp_path_factory.mktemp("snapshots")
-    environment = {**os.environ, "FURROW_SNAPSHOT_FOLDER": str(path)}
-    subprocess.run([PROGRAM, "[.write-snapshot]"], env=environment, check=True, stdout=subprocess.DEVNULL)
-    return path
 
 
 def expected(dimensions, count=COUNT):
