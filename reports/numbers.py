@@ -11,7 +11,7 @@ GREEK = {name: chr(code) for name, code in {
     "alpha": 0x3B1, "beta": 0x3B2, "gamma": 0x3B3, "delta": 0x3B4, "epsilon": 0x3B5, "zeta": 0x3B6, "eta": 0x3B7, "theta": 0x3B8,
     "kappa": 0x3BA, "lambda": 0x3BB, "mu": 0x3BC, "nu": 0x3BD, "xi": 0x3BE, "pi": 0x3C0, "rho": 0x3C1, "sigma": 0x3C3, "tau": 0x3C4,
     "phi": 0x3C6, "chi": 0x3C7, "psi": 0x3C8, "omega": 0x3C9, "Gamma": 0x393, "Delta": 0x394, "Sigma": 0x3A3, "Omega": 0x3A9,
-    "nabla": 0x2207, "sum": 0x2211, "infinity": 0x221E, "inf": 0x221E}.items()}
+    "nabla": 0x2207, "grad": 0x2207, "sum": 0x2211, "int": 0x222B, "infinity": 0x221E, "inf": 0x221E}.items()}
 
 
 def number(x, digits=4):
@@ -40,20 +40,20 @@ def number(x, digits=4):
 
 
 def percent(fraction):
-    """A share in percent with two or three digits: 0.34 -> 34 %, 2.4 -> 240 %."""
+    """A share in percent with two or three digits, a large one as a multiple: 0.34 -> 34 %, 240 -> 240 ×."""
     if fraction is None:
         return "–"
     if not math.isfinite(fraction):
         return "no bound"
     p = 100.0 * fraction
     if p == 0.0:
-        return "0 %"
+        return "0\u202f%"
     if p < 0.1:
-        return "< 0.1 %"
-    if p >= 100000.0:
-        return f"{number(fraction, 2)} ×"
+        return "< 0.1\u202f%"
+    if p >= 1000.0:
+        return f"{number(fraction, 2)}\u202f×"
     digits = 1 if p < 10.0 else 0
-    return f"{p:.{digits}f} %"
+    return f"{p:.{digits}f}\u202f%"
 
 
 def with_uncertainty(value, uncertainty):
@@ -97,9 +97,17 @@ def _greek(text):
                   lambda m: GREEK[m.group(1)], text)
 
 
+def _signs(text):
+    """Greek letters, operators, primes and a real minus, where a formula names them in ASCII."""
+    text = re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", "")))
+    text = re.sub(r"(?<=[ (|,])-(?=[ \w(|])|^-(?=\w)", MINUS, text)
+    text = re.sub(r"(?<=\w)\'+", lambda m: "′" * len(m.group()), text)
+    return re.sub(r"<([^<>]+)>", "⟨\\1⟩", text.replace("<=", "≤").replace(">=", "≥")).replace(" * ", " · ")
+
+
 def symbol(text):
     """A formula sign as HTML: L_f -> L with subscript f, h/dx -> h/Δx, rho_0 -> ρ with subscript 0; letters in italics."""
-    text = re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", "")))
+    text = _signs(text)
     parts, position = [], 0
     for match in re.finditer(r"([_^])(\{[^}]*\}|[^\W_]+|[*+\-∞])", text):
         parts.append(escape(text[position:match.start()]))
@@ -112,7 +120,7 @@ def symbol(text):
 
 def plain_symbol(text):
     """A formula sign for a figure or an attribute, where there is no markup."""
-    return re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", ""))).replace("{", "").replace("}", "")
+    return _signs(text).replace("{", "").replace("}", "")
 
 
 def duration(seconds):
@@ -156,7 +164,7 @@ def prefixed(largest, unit_text):
 
 STATES = {
     "asymptotic": "asymptotic: the error falls at a steady rate as the spacing is refined",
-    "plateau": "plateau: finer spacing no longer lowers the error at this h/Δx",
+    "plateau": "plateau: finer spacing no longer lowers the error at this h/Δx; the order is that of the falling part",
     "oscillatory": "oscillatory: the error goes up and down, so that no order can be claimed",
     "diverging": "diverging: the error grows as the spacing is refined",
     "round-off": "round-off: the error is as small as the arithmetic allows, so that no order can be claimed",

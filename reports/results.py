@@ -35,7 +35,8 @@ class Case:
 
     @property
     def title(self):
-        return self.data.get("title") or self.id
+        title = self.data.get("title") or self.id
+        return title[0].upper() + title[1:]
 
     @property
     def reason(self):
@@ -55,7 +56,8 @@ class Case:
 
     @property
     def classes(self):
-        found = {m["class"] for m, _ in self.metrics}
+        gated = {m["class"] for m, _ in self.metrics if m["verdict"] not in ("reported", "skipped")}
+        found = gated or {m["class"] for m, _ in self.metrics}
         return [c for c in CLASSES if c in found]
 
     @property

@@ -37,9 +37,11 @@ class Summary:
             if not gaps:
                 return f"All {n} cases pass." if n > 1 else "The one case passes."
             return f"{self.cases['pass']} of {n} cases pass{tail}."
-        parts = [f"{self.cases['fail']} fail{'s' if self.cases['fail'] == 1 else ''}" if self.cases["fail"] else "",
-                 f"{self.cases['error']} ended as error" if self.cases["error"] else ""]
-        return f"Of {n} case{'s' if n > 1 else ''}, " + " and ".join(p for p in parts if p) + tail + "."
+        fails, errors = self.cases["fail"], self.cases["error"]
+        of = f"of {n} case{'s' if n > 1 else ''}"
+        first = f"{fails} {of} fail{'s' if fails == 1 else ''}" if fails else f"{errors} {of} ended as error"
+        second = f", {errors} ended as error" if fails and errors else ""
+        return first + second + tail.replace(",", ";") + "."
 
 
 def count(items, keys):

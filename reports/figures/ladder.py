@@ -3,7 +3,7 @@
 import math
 
 from reports.figures import style
-from reports.numbers import order, plain_symbol, prefixed, with_unit
+from reports.numbers import order, prefixed, with_unit
 
 
 def ladders_of(metric):
@@ -23,7 +23,7 @@ def draw(metric, stamp):
     is_error = all(l.get("kind", "error") == "error" for l in ladders)
     spacings = [dx for l in ladders for dx in l["spacing"] if dx > 0.0]
     factor, unit = prefixed(max(spacings), "m") if spacings else (1.0, "m")
-    figure, axes = style.canvas(plot_height=260.0, legend_rows=len(ladders) + (0 if is_error else 1))
+    figure, axes = style.canvas(plot_height=230.0, legend_rows=len(ladders) + (0 if is_error else 1))
 
     points = []
     for i, ladder in enumerate(ladders):
@@ -34,7 +34,7 @@ def draw(metric, stamp):
             y = [abs(v) if v != 0.0 else math.nan for v in y]
             points += [(a, b) for a, b in zip(x, y) if math.isfinite(b) and a > 0.0]
         axes.plot(x, y, label=name(ladder), markersize=5, **look)
-        if not is_error and ladder["extrapolated"] is not None:
+        if not is_error and ladder["state"] == "asymptotic" and ladder["extrapolated"] is not None:
             limit, finest = ladder["extrapolated"], min(x)
             axes.plot([finest, max(x)], [limit, limit], color=look["color"], linewidth=1.0, linestyle=(0, (2, 2)), zorder=2)
             if ladder["gci"]:
@@ -44,23 +44,24 @@ def draw(metric, stamp):
     if not is_error and reference is not None:
         axes.axhline(reference, label="reference", **{k: v for k, v in style.look("reference", 0, 1).items() if k != "marker"})
 
-    axes.set_xscale("log")
-    if is_error:
-        axes.set_yscale("log")
-        _slope(axes, points, ladders)
+    if is_error and not points:
+        style.empty(axes, "every error is exactly zero" if all(v == 0.0 for l in ladders for v in l["value"]) else "no finite number")
     else:
-        style.linear_axis(axes.yaxis, *axes.get_ylim())
-    if points and is_error:
-        low, high = min(p[1] for p in points), max(p[1] for p in points)
-        if high < 10.0 * low:
-            axes.set_ylim(low / 3.0, high * 3.0)
-        style.log_axis(axes.yaxis, *axes.get_ylim())
-    shown = sorted({factor * dx for dx in spacings})
-    if shown:
-        axes.set_xlim(shown[0] / 1.25, shown[-1] * 1.25)
-    _spacing_ticks(axes, shown)
-    sign = plain_symbol(metric["symbol"])
-    quantity = f"|{sign}|" if is_error else sign
+        axes.set_xscale("log")
+        shown = sorted({factor * dx for dx in spacings})
+        if shown:
+            axes.set_xlim(shown[0] / 1.25, shown[-1] * 1.25)
+        _spacing_ticks(axes, shown)
+        if is_error:
+            axes.set_yscale("log")
+            _slope(axes, points, ladders)
+            low, high = min(p[1] for p in points), max(p[1] for p in points)
+            if high < 10.0 * low:
+                axes.set_ylim(low / 3.0, high * 3.0)
+            style.log_axis(axes.yaxis, *axes.get_ylim())
+        else:
+            style.linear_axis(axes.yaxis, *axes.get_ylim())
+    quantity = metric["name"].replace("_", " ")
     unit_shown = metric["unit"] if not is_error or "relative" not in metric["norm"] else "1"
     style.labels(axes, with_unit("particle spacing Δx", unit), with_unit(quantity, unit_shown))
     style.legend(figure, axes, columns=1)

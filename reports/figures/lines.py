@@ -41,15 +41,18 @@ def draw(data, stamp):
         else:
             axes.plot(x, y, label=s["label"], **look)
 
-    if log_x:
-        axes.set_xscale("log")
-    if log_y:
-        axes.set_yscale("log")
-    finish(axes, log_x, log_y)
+    if not any(math.isfinite(v) for line in axes.lines for v in line.get_ydata()):
+        style.empty(axes, "no number above zero" if lost else "no finite number")
+    else:
+        if log_x:
+            axes.set_xscale("log")
+        if log_y:
+            axes.set_yscale("log")
+        finish(axes, log_x, log_y)
     y_label = style.axis_label(data["y"]) + (f"  ({lost} zero or negative values not shown)" if lost else "")
     style.labels(axes, style.axis_label(data["x"]), y_label)
     if len(shown) > 1:
-        style.legend(figure, axes, columns)
+        style.legend(figure, axes, columns, names)
     return style.save(figure, stamp, data["title"])
 
 

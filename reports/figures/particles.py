@@ -2,12 +2,16 @@
 
 import math
 
+import matplotlib.colors
 import numpy as np
 
 from reports.figures import style
 from reports.numbers import prefixed, with_unit
 
 VECTOR_LIMIT = 1500   # more particles than this are drawn as one picture inside the SVG: hundreds of kilobytes instead of megabytes
+
+# blue for negative, orange for positive, a grey between them that is seen on light and on dark paper
+SIGNED = matplotlib.colors.LinearSegmentedColormap.from_list("signed", ["#0b3c6f", "#4f8fc0", "#cbcfd0", "#df8648", "#7f2704"])
 
 
 def draw(data, stamp):
@@ -36,7 +40,7 @@ def cloud(x, y, quantity, axes_labels, colour_label, groups, stamp, title):
     x_range, y_range = _padded(x[there]), _padded(y[there])
     wide = style.WIDTH - 62.0 - 16.0
     aspect = (y_range[1] - y_range[0]) / (x_range[1] - x_range[0])
-    height = min(420.0, max(90.0, wide * aspect))
+    height = min(300.0, max(90.0, wide * aspect))
     scale = min(wide / (x_range[1] - x_range[0]), height / (y_range[1] - y_range[0]))   # pixels a unit
     for limits, pixels in ((x_range, wide), (y_range, height)):
         spare = 0.5 * (pixels / scale - (limits[1] - limits[0]))
@@ -44,13 +48,13 @@ def cloud(x, y, quantity, axes_labels, colour_label, groups, stamp, title):
         limits[1] += spare
     named = [g for g in groups if g[0]]
     rows = len(named) if len(named) > 1 else 0
-    figure, axes = style.canvas(plot_height=height, legend_rows=rows, bottom=50.0 + (46.0 if quantity is not None else 0.0))
+    figure, axes = style.canvas(plot_height=height, legend_rows=rows, bottom=44.0 + (46.0 if quantity is not None else 0.0))
     axes.grid(False)
     axes.set_xlim(*x_range)
     axes.set_ylim(*y_range)
 
     apart = _spacing(x[there], y[there]) * scale
-    area = min(120.0, max(0.8, (0.96 * apart) ** 2))
+    area = min(120.0, max(0.8, ((0.96 if apart > 6.0 else 1.3) * apart) ** 2))   # small ones overlap, to read as a body
     raster = len(x) > VECTOR_LIMIT
     common = dict(s=area, linewidths=0.0, rasterized=raster)
     if quantity is not None:
@@ -58,7 +62,7 @@ def cloud(x, y, quantity, axes_labels, colour_label, groups, stamp, title):
         low, high = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
         signed = low < 0.0 < high and min(-low, high) > 0.05 * max(-low, high)
         bound = max(-low, high)
-        drawn = axes.scatter(x, y, c=quantity, cmap="PuOr_r" if signed else "viridis", vmin=-bound if signed else low,
+        drawn = axes.scatter(x, y, c=quantity, cmap=SIGNED if signed else "viridis", vmin=-bound if signed else low,
                              vmax=bound if signed else high, plotnonfinite=False, **common)
         lost = there & ~np.isfinite(quantity)
         if lost.any():

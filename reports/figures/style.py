@@ -16,7 +16,7 @@ import matplotlib.ticker  # noqa: E402
 from reports.numbers import MINUS, SUPERSCRIPTS, number, with_unit  # noqa: E402
 
 FONTS = "'Helvetica Neue', Helvetica, 'Segoe UI', Roboto, 'Noto Sans', 'Nimbus Sans', Arial, sans-serif"
-WIDTH = 520.0   # of every figure, in CSS pixels; heights follow from the content
+WIDTH = 460.0   # of every figure, in CSS pixels; heights follow from the content
 
 # placeholder -> (variable, light, dark). The hues are Okabe and Ito's, darkened or lightened to keep contrast on both papers.
 COLOURS = {
@@ -62,9 +62,9 @@ def look(role, index, count):
     return dict(color=MUTED, linestyle=(0, (1, 1.6)), marker="None", linewidth=1.2, zorder=2)
 
 
-def canvas(plot_height=250.0, legend_rows=0, left=62.0, right=16.0, top=30.0, bottom=50.0, caption_rows=0):
+def canvas(plot_height=225.0, legend_rows=0, left=62.0, right=16.0, top=30.0, bottom=44.0, caption_rows=0):
     """A figure of fixed width with one axes of the given height in pixels, and room below for a legend and for the stamp."""
-    legend = 19.0 * legend_rows + (6.0 if legend_rows else 0.0)
+    legend = 17.5 * legend_rows + (4.0 if legend_rows else 0.0)
     height = top + plot_height + bottom + legend + 17.0
     figure = matplotlib.figure.Figure(figsize=(WIDTH / 72.0, height / 72.0), dpi=72)
     axes = figure.add_axes([left / WIDTH, (bottom + legend + 17.0) / height, (WIDTH - left - right) / WIDTH, plot_height / height])
@@ -133,11 +133,15 @@ def legend_rows(count, columns=2):
     return math.ceil(count / columns)
 
 
-def legend(figure, axes, columns=2):
-    """Legend below the plot, where it never covers data. `columns` as given to legend_rows."""
+def legend(figure, axes, columns=2, order=None):
+    """Legend below the plot, where it never covers data. `columns` as given to legend_rows; `order`: names in reading order."""
     handles, names = axes.get_legend_handles_labels()
     if not handles:
         return
+    if order:
+        found = dict(zip(names, handles))
+        names = [name for name in order if name in found]
+        handles = [found[name] for name in names]
     height = figure.get_figheight() * 72.0
     drawn = figure.legend(handles, names, loc="lower left", bbox_to_anchor=(8.0 / WIDTH, 14.0 / height), ncol=columns, frameon=False,
                           fontsize=11, handlelength=2.2, columnspacing=1.4, labelspacing=0.35, borderpad=0.2, handletextpad=0.6)
@@ -147,7 +151,14 @@ def legend(figure, axes, columns=2):
 
 def columns_for(names):
     """Two columns of legend when the names are short enough for half the width."""
-    return 2 if len(names) > 1 and max(len(n) for n in names) <= 34 else 1
+    return 2 if len(names) > 1 and max(len(n) for n in names) <= 28 else 1
+
+
+def empty(axes, words):
+    """Says in an empty plot why it is empty."""
+    axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=MUTED)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(matplotlib.ticker.NullLocator())
 
 
 def finite(values):
