@@ -3,6 +3,8 @@
 #include "verification/families.hpp"
 
 int main(int argc, char** argv) {
-  const std::vector<furrow::Family> families = {};
+  const std::vector<furrow::Family> families = {
+      furrow::kernel_family(),
+  };
   return furrow::command_line(families, argc, argv);
 }

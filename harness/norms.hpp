@@ -5,7 +5,7 @@
 
 namespace furrow {
 
-struct Norms {
+struct FieldNorms {
   double l1 = 0.0;     ///< sum V |e| / sum V
   double l2 = 0.0;     ///< sqrt(sum V e^2 / sum V)
   double linf = 0.0;   ///< max |e|
@@ -14,12 +14,12 @@ struct Norms {
 /// Norms of a field, in the field's unit. `volume` holds one weight a particle (m^Dim); of a vector or tensor field the
 /// magnitudes are given. NaN where an entry is not finite; std::invalid_argument when the lengths differ, nothing is given or
 /// the volumes do not sum to a positive number.
-Norms norms(std::span<const double> field, std::span<const double> volume);
+FieldNorms norms(std::span<const double> field, std::span<const double> volume);
 
 /// Norms of computed - exact, in the field's unit.
-Norms error_norms(std::span<const double> computed, std::span<const double> exact, std::span<const double> volume);
+FieldNorms error_norms(std::span<const double> computed, std::span<const double> exact, std::span<const double> volume);
 
 /// Norms of computed - exact, each divided by the same norm of exact; NaN where exact vanishes.
-Norms relative_error_norms(std::span<const double> computed, std::span<const double> exact, std::span<const double> volume);
+FieldNorms relative_error_norms(std::span<const double> computed, std::span<const double> exact, std::span<const double> volume);
 
 }  // namespace furrow

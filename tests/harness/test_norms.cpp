@@ -10,7 +10,7 @@ using namespace furrow;
 
 TEST_CASE("Norms weigh by volume", "[norms]") {
   const std::vector<double> e{3.0, -1.0}, v{1.0, 3.0};
-  const Norms n = norms(e, v);
+  const FieldNorms n = norms(e, v);
   CHECK(n.l1 == Approx(1.5));
   CHECK(n.l2 == Approx(std::sqrt(3.0)));
   CHECK(n.linf == 3.0);
@@ -24,7 +24,7 @@ TEST_CASE("Splitting a particle in two halves changes no norm", "[norms]") {
 
 TEST_CASE("A relative norm is divided by the same norm of the exact field", "[norms]") {
   const std::vector<double> computed{1.1, 2.2}, exact{1.0, 2.0}, v{1.0, 1.0};
-  const Norms n = relative_error_norms(computed, exact, v);
+  const FieldNorms n = relative_error_norms(computed, exact, v);
   CHECK(n.l1 == Approx(0.1));
   CHECK(n.l2 == Approx(0.1));
   CHECK(n.linf == Approx(0.1));
@@ -33,7 +33,7 @@ TEST_CASE("A relative norm is divided by the same norm of the exact field", "[no
 
 TEST_CASE("A NaN anywhere makes every norm NaN", "[norms]") {
   const std::vector<double> e{1.0, std::numeric_limits<double>::quiet_NaN(), 2.0}, v{1.0, 1.0, 1.0};
-  const Norms n = norms(e, v);
+  const FieldNorms n = norms(e, v);
   CHECK(std::isnan(n.l1));
   CHECK(std::isnan(n.l2));
   CHECK(std::isnan(n.linf));

@@ -1,0 +1,47 @@
+// Progress of a run: one live bar on a terminal, a plain line a case otherwise, nothing when quiet.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+#include "harness/case_run.hpp"
+
+namespace furrow {
+
+class Progress {
+ public:
+  /// `expected` holds the expected seconds of every case that will run.
+  Progress(std::map<std::string, double> expected, int jobs, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void started(const std::string& id);
+  void moved(const std::string& id, const CaseProgress& progress);
+  void finished(const std::string& id, const std::string& verdict, const std::string& reason, double seconds);
+  void draw();   ///< the bar, a few times a second
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    Clock::time_point start;
+    CaseProgress progress;
+  };
+
+  double time_left() const;   // s
+  std::string bar() const;
+  void clear();
+
+  std::map<std::string, double> waiting_;
+  std::map<std::string, Running> running_;
+  std::size_t total_, done_ = 0;
+  int jobs_;
+  bool quiet_, terminal_, drawn_ = false;
+  Clock::time_point last_draw_;
+};
+
+/// "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".
+std::string duration_words(double seconds);
+
+}  // namespace furrow
