@@ -15,7 +15,9 @@ struct MaterialState {
   double density = 0.0;              ///< kg/m^3
   double internal_energy = 0.0;      ///< J/kg, from the reference state
   double plastic_strain = 0.0;       ///< equivalent
+  double plastic_work = 0.0;         ///< J/kg, dissipated so far
   double temperature = 0.0;          ///< K
+  double fracture_onset = 0.0;       ///< sum of plastic strain over fracture strain; 1 when fracture begins
   double damage = 0.0;               ///< 1 when failed
 };
 

@@ -23,7 +23,7 @@ struct Particles {
   std::vector<double> mass, density;
   std::vector<Tensor> stress;
   std::vector<double> sound_speed;
-  std::vector<double> internal_energy, plastic_strain, temperature, damage;
+  std::vector<double> internal_energy, plastic_strain, plastic_work, temperature, fracture_onset, damage;
 
   std::size_t size() const { return position.size(); }
   double volume(std::size_t i) const { return mass[i] / density[i]; }
@@ -42,7 +42,9 @@ void for_each_field(P& p, Visitor&& visit) {
   visit(Field{"c", "sound_speed", "m/s", "longitudinal speed of sound"}, p.sound_speed);
   visit(Field{"e", "internal_energy", "J/kg", "internal energy per mass"}, p.internal_energy);
   visit(Field{"eps_p", "plastic_strain", "1", "equivalent plastic strain"}, p.plastic_strain);
+  visit(Field{"w_p", "plastic_work", "J/kg", "plastic work per mass, dissipated so far"}, p.plastic_work);
   visit(Field{"T", "temperature", "K", "temperature"}, p.temperature);
+  visit(Field{"omega", "fracture_onset", "1", "sum of plastic strain over fracture strain, 1 when fracture begins"}, p.fracture_onset);
   visit(Field{"D", "damage", "1", "damage, 1 when failed"}, p.damage);
 }
 

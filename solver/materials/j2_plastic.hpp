@@ -1,0 +1,47 @@
+#pragma once
+
+#include "solver/materials/first_law.hpp"
+#include "solver/materials/linear_eos.hpp"
+#include "solver/materials/mie_grueneisen.hpp"
+
+namespace furrow {
+
+/// Von Mises plasticity with linear hardening, sigma_y = Y + H eps_p; H = 0 is perfect plasticity. The return to the yield surface
+/// is radial and exact: sqrt(3 J2) = sigma_y(eps_p + d_eps_p) with d_eps_p = (q_trial - sigma_y(eps_p))/(3 G + H).
+template <class Eos>
+struct J2Plastic {
+  static constexpr std::string_view name = "j2";
+
+  Eos eos;
+  double shear_modulus;             ///< G, Pa
+  double yield_stress;              ///< Y, Pa
+  double hardening_modulus = 0.0;   ///< H, Pa
+
+  MaterialState initial_state() const {
+    MaterialState state;
+    state.density = eos.reference_density;
+    return state;
+  }
+
+  double flow_stress(double plastic_strain) const { return yield_stress + hardening_modulus * plastic_strain; }
+
+  MaterialState respond(MaterialState state, const Increment& increment) const {
+    const double G = shear_modulus;
+    Tensor s = elastic_deviator(state.stress, G, increment);
+    const double q_trial = std::sqrt(3.0 * j2(s));
+    const double d_eps_p = (q_trial - flow_stress(state.plastic_strain)) / (3.0 * G + hardening_modulus);
+    if (d_eps_p > 0.0) {
+      const double q = q_trial - 3.0 * G * d_eps_p;
+      s *= q / q_trial;
+      state.plastic_strain += d_eps_p;
+      state.plastic_work += q * d_eps_p / state.density;
+    }
+    return closed_step(eos, state, s, increment);
+  }
+
+  double sound_speed(const MaterialState& state) const { return longitudinal_speed(eos, shear_modulus, state); }
+  double stored_energy(const MaterialState& state) const { return elastic_energy(eos, shear_modulus, state); }
+};
+static_assert(Material<J2Plastic<LinearEos>> && Material<J2Plastic<MieGrueneisen>>);
+
+}  // namespace furrow
