@@ -2,6 +2,7 @@
 #include "solver/io/file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -89,7 +90,9 @@ TEST_CASE("kill -9 in the middle of a write leaves the old file, and the next wr
     write_atomically(file, {large});
     ::_exit(0);
   }
-  const int pipe = ::open(temporary_name(file).c_str(), O_RDONLY);
+  const int pipe = ::open(temporary_name(file).c_str(), O_RDONLY | O_NONBLOCK);
+  pollfd readable = {pipe, POLLIN, 0};
+  CHECK(::poll(&readable, 1, 10'000) == 1);   // ms; a writer that goes elsewhere must not make the test wait for ever
   std::byte seen{};
   CHECK(::read(pipe, &seen, 1) == 1);
   CHECK(seen == large.front());
