@@ -6,12 +6,15 @@ import re
 from markupsafe import Markup, escape
 
 MINUS = "\u2212"
-SUPERSCRIPTS = str.maketrans("0123456789-+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺")
+SUPERSCRIPTS = str.maketrans("0123456789-+()abcdehijklmnoprstuvxyz", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺⁽⁾ᵃᵇᶜᵈᵉʰⁱʲᵏˡᵐⁿᵒᵖʳˢᵗᵘᵛˣʸᶻ")
+SUBSCRIPTS = str.maketrans("0123456789-+()aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉₋₊₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 GREEK = {name: chr(code) for name, code in {
     "alpha": 0x3B1, "beta": 0x3B2, "gamma": 0x3B3, "delta": 0x3B4, "epsilon": 0x3B5, "zeta": 0x3B6, "eta": 0x3B7, "theta": 0x3B8,
     "kappa": 0x3BA, "lambda": 0x3BB, "mu": 0x3BC, "nu": 0x3BD, "xi": 0x3BE, "pi": 0x3C0, "rho": 0x3C1, "sigma": 0x3C3, "tau": 0x3C4,
     "phi": 0x3C6, "chi": 0x3C7, "psi": 0x3C8, "omega": 0x3C9, "Gamma": 0x393, "Delta": 0x394, "Sigma": 0x3A3, "Omega": 0x3A9,
     "nabla": 0x2207, "grad": 0x2207, "sum": 0x2211, "int": 0x222B, "infinity": 0x221E, "inf": 0x221E}.items()}
+
+PROSE = {"sum", "int", "inf", "grad"}   # operators in a formula, words in a label
 
 
 def number(x, digits=4):
@@ -86,20 +89,20 @@ def quantity(value, unit_text):
     return f"{number(value)}\u202f{shown}" if shown else number(value)
 
 
-def with_unit(label, unit_text):
+def with_unit(text, unit_text):
     """An axis or column label: 'length, mm'."""
     shown = unit(unit_text)
-    return f"{label}, {shown}" if shown else label
+    return f"{label(text)}, {shown}" if shown else label(text)
 
 
-def _greek(text):
-    return re.sub(r"(?<![A-Za-z])(" + "|".join(sorted(GREEK, key=len, reverse=True)) + r")(?![A-Za-z])",
+def _greek(text, kept):
+    return re.sub(r"(?<![A-Za-z])(" + "|".join(sorted(GREEK.keys() - kept, key=len, reverse=True)) + r")(?![A-Za-z])",
                   lambda m: GREEK[m.group(1)], text)
 
 
-def _signs(text):
+def _signs(text, kept=frozenset()):
     """Greek letters, operators, primes and a real minus, where a formula names them in ASCII."""
-    text = re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", "")))
+    text = re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", ""), kept))
     text = re.sub(r"(?<=[ (|,])-(?=[ \w(|])|^-(?=\w)", MINUS, text)
     text = re.sub(r"(?<=\w)\'+", lambda m: "′" * len(m.group()), text)
     return re.sub(r"<([^<>]+)>", "⟨\\1⟩", text.replace("<=", "≤").replace(">=", "≥")).replace(" * ", " · ")
@@ -118,9 +121,13 @@ def symbol(text):
     return Markup("<i>{}</i>").format(Markup("").join(parts))
 
 
-def plain_symbol(text):
-    """A formula sign for a figure or an attribute, where there is no markup."""
-    return _signs(text).replace("{", "").replace("}", "")
+def label(text):
+    """A label that may hold a formula, as plain text for figures and table heads: h^2 -> h², h/dx -> h/Δx, c_0 -> c₀, rho -> ρ."""
+    def raised(match):
+        table = SUPERSCRIPTS if match.group(1) == "^" else SUBSCRIPTS
+        inner = match.group(2).strip("{}")
+        return inner.translate(table) if all(ord(c) in table for c in inner) else match.group(1) + inner
+    return re.sub(r"(?<=\S)([_^])(\{[^}]*\}|\([^()]*\)|[+-]?[^\W_]+)", raised, _signs(text, PROSE))
 
 
 def duration(seconds):

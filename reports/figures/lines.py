@@ -3,12 +3,13 @@
 import math
 
 from reports.figures import style
+from reports.numbers import label
 
 
 def draw(data, stamp):
     """`data`: a figure of kind lines or points as in result.json."""
     series = [s for s in data["series"] if s["x"]]
-    names = [s["label"] for s in series]
+    names = [label(s["label"]) for s in series]
     columns = style.columns_for(names) if names else 1
     shown = [n for n in names if n]
     figure, axes = style.canvas(legend_rows=style.legend_rows(len(shown), columns) if len(shown) > 1 else 0)
@@ -36,10 +37,10 @@ def draw(data, stamp):
         bars = style.finite(s.get("uncertainty") or [])
         if bars and any(b > 0.0 for b in bars):
             look.pop("markevery", None)
-            axes.errorbar(x, y, yerr=bars, capsize=2.5, elinewidth=1.0, capthick=1.0, ecolor=look["color"], label=s["label"],
+            axes.errorbar(x, y, yerr=bars, capsize=2.5, elinewidth=1.0, capthick=1.0, ecolor=look["color"], label=label(s["label"]),
                           **{k: v for k, v in look.items()})
         else:
-            axes.plot(x, y, label=s["label"], **look)
+            axes.plot(x, y, label=label(s["label"]), **look)
 
     if not any(math.isfinite(v) for line in axes.lines for v in line.get_ydata()):
         style.empty(axes, "no number above zero" if lost else "no finite number")
