@@ -17,6 +17,10 @@ struct Number {
   std::string skipped, fault;
 };
 
+std::string day(std::chrono::year_month_day date) {
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+}
+
 Number faulty(std::string fault) {
   Number number;
   number.fault = std::move(fault);
@@ -188,7 +192,7 @@ class Judge {
       result.reason = fmt::format("the known gap has expired: {}", gap.reason);
     } else {
       result.verdict = Verdict::known_gap;
-      result.reason = gap.reason;
+      result.reason = fmt::format("{} (recorded {}, expires {})", gap.reason, day(gap.date), day(gap.expires));
     }
   }
 

@@ -113,12 +113,23 @@ def symbol(text):
     text = _signs(text)
     parts, position = [], 0
     for match in re.finditer(r"([_^])(\{[^}]*\}|[^\W_]+|[*+\-∞])", text):
-        parts.append(escape(text[position:match.start()]))
+        parts.append(_upright(text[position:match.start()]))
         tag = "sub" if match.group(1) == "_" else "sup"
         parts.append(Markup(f"<{tag}>{{}}</{tag}>").format(match.group(2).strip("{}")))
         position = match.end()
-    parts.append(escape(text[position:]))
+    parts.append(_upright(text[position:]))
     return Markup("<i>{}</i>").format(Markup("").join(parts))
+
+
+def _upright(text):
+    """Names of functions and words (max, sinc, at) stand upright among italic letters."""
+    pieces = re.split(r"(\b(?:[a-z]{3,}|at|of|in)\b)", text)
+    return Markup("").join(Markup("<b>{}</b>").format(piece) if i % 2 else escape(piece) for i, piece in enumerate(pieces))
+
+
+def norm(text):
+    """Linf relative -> L∞ relative."""
+    return text.replace("Linf", "L∞").replace("L2", "L₂").replace("L1", "L₁")
 
 
 def label(text):
@@ -202,6 +213,8 @@ def band(ends, unit_text="", factor=1.0):
         return f"≤ {number(factor * high)}{tail}"
     if high is None:
         return f"≥ {number(factor * low)}{tail}"
+    if low == high:
+        return f"exactly {number(factor * low)}{tail}"
     if low == -high:
         return f"± {number(factor * high)}{tail}"
     return f"{number(factor * low)} … {number(factor * high)}{tail}"

@@ -119,10 +119,12 @@ def figures_of(case, provenance):
         taken.add(path)
         return path + ".svg"
 
-    convergence = {}
-    for metric, _ in case.metrics:
-        steps = ladder.ladders_of(metric)
+    convergence, shown = {}, []
+    by_source = sorted((m for m, _ in case.metrics), key=lambda m: any(s["order"] == m["value"] for s in ladder.ladders_of(m)))
+    for metric in by_source:   # an observed order carries the ladder of the metric whose order it is: that is drawn once
+        steps = [s for s in ladder.ladders_of(metric) if s not in shown]
         if steps:
+            shown += steps
             said = "; ".join(ladder.name(s) for s in steps)
             convergence[metric["name"]] = Figure(file(f"ladder-{metric['name']}"), f"Convergence of {metric['name'].replace('_', ' ')}", "",
                                                  f"Convergence of {metric['name']} over particle spacing. {said}.", ladder.draw, (metric, mark))
@@ -185,12 +187,12 @@ def _write(run, work, jobs):
 
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=_Absent)
-    environment.filters.update(number=numbers.number, unit=numbers.unit, symbol=numbers.symbol,
+    environment.filters.update(number=numbers.number, unit=numbers.unit, symbol=numbers.symbol, norm=numbers.norm,
                                size=numbers.size, percent=numbers.percent, path=lambda p: quote(p), words=lambda t: t.replace("_", " "))
     environment.globals.update(words=WORDS, class_words=CLASS_WORDS, verdicts=results.VERDICTS, classes=results.CLASSES,
                                states=numbers.STATES, with_uncertainty=numbers.with_uncertainty, band_words=band_words,
                                error_words=error_words, bar=bar, order=numbers.order, quantity=numbers.quantity, ladders_of=ladder.ladders_of,
-                               with_unit=numbers.with_unit, duration=numbers.duration, flatten=flatten, expiry=expiry, when=when, spacing_words=spacing_words,
+                               with_unit=numbers.with_unit, duration=numbers.duration, flatten=flatten, expiry=expiry, when=when, spacing_words=spacing_words, common_rung=common_rung,
                                is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run)}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
@@ -218,8 +220,8 @@ def _band_unit(metric):
 
 
 def error_words(metric):
-    if metric["error"] is None:
-        return "–"
+    if metric["error"] is None or metric["norm"].split()[-1:] == ["value"] and "relative" not in metric["norm"]:
+        return "–"   # the band is on the value itself
     if _in_percent(metric):
         return f"{numbers.number(100.0 * metric['error'], 3)}\u202f%"
     return numbers.quantity(metric["error"], _band_unit(metric))
@@ -289,6 +291,12 @@ def spacing_words(metric):
     if at.get("h_over_dx"):
         parts.append(f"h/Δx = {numbers.number(at['h_over_dx'])}")
     return "at " + ", ".join(parts) if parts else ""
+
+
+def common_rung(case):
+    """The words of spacing_words where they are the same for every metric of the case, so that they are said once; else ''."""
+    found = {spacing_words(m) for m, _ in case.metrics}
+    return found.pop() if len(found) == 1 else ""
 
 
 def expiry(case, run):

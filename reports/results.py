@@ -198,6 +198,8 @@ def load(folder):
     else:
         faults.append("run.json is missing: the run did not come to its end.")
 
+    if data.get("state") in ("running", "interrupted"):
+        faults.append("The run was interrupted: cases that did not come to their turn are shown as error.")
     own = {"report"}
     paths = sorted(p for p in root.rglob("result.json")
                    if not any(part in own or part.startswith(".") for part in p.relative_to(root).parts[:1]))

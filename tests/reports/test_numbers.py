@@ -28,7 +28,7 @@ def test_unit(text, shown):
 @pytest.mark.parametrize("text, shown", [
     ("L_f", "<i>L<sub>f</sub></i>"), ("rho_0", "<i>ρ<sub>0</sub></i>"), ("h/dx", "<i>h/Δx</i>"), ("int x^2 W dV", "<i>∫ x<sup>2</sup> W dV</i>"),
     ("W' - W'_ref", "<i>W′ − W′<sub>ref</sub></i>"), ("a < b & c", "<i>a &lt; b &amp; c</i>"), ("sigma_{xx}", "<i>σ<sub>xx</sub></i>"),
-    ("<b>", "<i>⟨b⟩</i>")])
+    ("<b>", "<i>⟨b⟩</i>"), ("max |W|", "<i><b>max</b> |W|</i>")])
 def test_symbol(text, shown):
     assert str(numbers.symbol(text)) == shown
 
@@ -44,7 +44,7 @@ def test_duration(seconds, text):
     assert numbers.duration(seconds) == text
 
 
-@pytest.mark.parametrize("ends, text", [([-0.03, 0.03], "± 0.03"), ([0, 1e-10], "0 … 1e−10"), ([1.7, None], "≥ 1.7"), ([None, 2], "≤ 2"), (None, "not gated")])
+@pytest.mark.parametrize("ends, text", [([-0.03, 0.03], "± 0.03"), ([0, 1e-10], "0 … 1e−10"), ([1.7, None], "≥ 1.7"), ([None, 2], "≤ 2"), ([0, 0], "exactly 0"), (None, "not gated")])
 def test_band(ends, text):
     assert numbers.band(ends) == text
 

@@ -160,6 +160,27 @@ def test_a_case_page_tells_what_it_must(built):
     assert [a for a in page.all("a") if a.get("rel") == "prev"]
 
 
+def test_an_order_carries_its_ladder_and_is_drawn_once(run):
+    data = result("kernel/a", metrics=[metric("p", 1.98, [1.7, 2.3], norm="value", ladders=[ladder()]),
+                                       metric("e", 1e-5, [0, 1e-4], norm="L2 relative", ladders=[ladder()])])
+    images = [a["src"] for a in page_of(build(run(data)).parent, "kernel/a").all("img")]
+    assert ["ladder-e" in i for i in images] == [True]
+
+
+def test_a_resolution_that_all_metrics_share_is_said_once(run):
+    at = {"spacing": 0.001, "h_over_dx": 1.2}
+    page = page_of(build(run(result("kernel/a", metrics=[metric("e", 0.1, [0, 1], at=at), metric("f", 0.1, [0, 1], at=at)]))).parent, "kernel/a")
+    assert page.text.count("at Δx") == 1
+
+
+def test_an_interrupted_run_and_kept_results_are_told(run):
+    kept = result("kernel/a", provenance={**sample.PROVENANCE, "commit": "0123456789abcdef", "started": "2026-01-02T03:04:05Z"})
+    text = Page(build(run(kept, state="interrupted", cases=["kernel/a", "kernel/b"])).read_text()).text
+    assert "The run was interrupted" in text
+    assert "kept from 0123456789, 2 January 2026, 03:04 UTC" in text
+    assert "it left no result.json" in text
+
+
 def test_no_baseline_is_said(built):
     _, _, report = built
     assert "No baseline accepted yet." in Page((report / "index.html").read_text()).text
