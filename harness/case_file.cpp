@@ -259,7 +259,7 @@ CaseSpec read_instance(const Parameters& block, const Combination& combination, 
       if (equals == std::string::npos || equals == 0)
         throw InputError("--set " + assignment, 0, "", "expected KEY=VALUE, such as parameters.kernel=wendland_c2");
       const std::string key = assignment.substr(0, equals);
-      if (!key.starts_with("parameters.") && !key.starts_with("resolution.") && key != "time_limit")
+      if (!key.starts_with("parameters.") && !key.starts_with("resolution.") && !key.starts_with("time_limit"))
         throw InputError("--set " + assignment, 0, key, "expected a key below parameters or resolution, or time_limit");
       changed.assign(key, assignment.substr(equals + 1), "--set " + assignment);
     }

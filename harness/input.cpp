@@ -43,14 +43,28 @@ Places places_below(const Places& all, const std::string& path, const std::strin
   return below;
 }
 
-std::string shown(const toml::node& node) {
+// A value as it would be written in TOML, cut when it is long.
+std::string written(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return fmt::format("\"{}\"", *text);
+  if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
+  std::string inner;
+  if (const auto* array = node.as_array()) {
+    for (const toml::node& entry : *array) inner += (inner.empty() ? "" : ", ") + written(entry);
+    return "[" + inner + "]";
+  }
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table) inner += fmt::format("{}{} = {}", inner.empty() ? "" : ", ", key.str(), written(value));
+    return inner.empty() ? "{}" : "{ " + inner + " }";
+  }
   std::ostringstream out;
   out << toml::node_view<const toml::node>(node);
-  std::string text = out.str();
+  return out.str();
+}
+
+std::string shown(const toml::node& node) {
+  std::string text = written(node);
   std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
+  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

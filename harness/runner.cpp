@@ -34,8 +34,12 @@ fs::path prepared_folder(const RunOptions& options, const Json& provenance) {
     throw InputError("--out " + folder.string(), 0, "", "found an earlier run there, expected an empty folder, or --resume to go on with it, or --replace");
   fs::create_directories(folder, error);
   if (error) throw InputError("--out " + folder.string(), 0, "", fmt::format("found {}, expected a folder that can be made", error.message()));
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError("--out " + folder.string(), 0, "", "found a folder that cannot be written, expected one that can");
+  try {
+    write_whole(folder / ".writable", "");   // asking for permissions is not enough: root may everything, and a read-only mount nobody
+    fs::remove(folder / ".writable");
+  } catch (const std::runtime_error& reason) {
+    throw InputError("--out " + folder.string(), 0, "", fmt::format("found a folder that cannot be written ({}), expected one that can", reason.what()));
+  }
   return folder;
 }
 

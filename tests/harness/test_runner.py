@@ -1,0 +1,146 @@
+"""The runner: whatever happens to one case is red, says why, and costs only that case."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree as ET
+
+import jsonschema
+import pytest
+
+from tests.harness.program import MISBEHAVING, ROOT, run
+
+SCHEMA = json.loads((ROOT / "harness/schema/result-1.json").read_text())
+
+
+def result(folder, case):
+    return json.loads((folder / "misbehaving" / case / "result.json").read_text())
+
+
+@pytest.fixture(scope="module")
+def everything(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run") / "all"
+    ended = run(MISBEHAVING, "matrix", "--tier", "smoke", "--jobs", "2", "--no-report", "--out", folder)
+    return folder, ended
+
+
+def test_the_run_ends_as_error_and_every_case_has_a_valid_result(everything):
+    folder, ended = everything
+    assert ended.returncode == 3, ended.stderr
+    announced = json.loads((folder / "run.json").read_text())["cases"]
+    for case in announced:
+        data = json.loads((folder / case / "result.json").read_text())
+        jsonschema.Draft202012Validator(SCHEMA).validate(data)
+        assert data["case"] == case
+    assert len(announced) == 16
+
+
+@pytest.mark.parametrize("case, verdict, reason", [
+    ("good", "pass", ""),
+    ("too-long", "fail", ""),
+    ("throws", "error", "the time step fell to zero"),
+    ("aborts", "error", "killed by signal 6"),
+    ("killed", "error", "killed by signal 9"),
+    ("leaves", "error", "it left no result"),
+    ("half-result", "error", "it left no result"),
+    ("never-ends", "error", "ran longer than its time limit of 1.5 s"),
+    ("measures-nan", "error", "length: no finite number"),
+    ("measures-nothing", "error", "the code does not measure it"),
+    ("measures-more", "error", "the code measures 'width', which the case file does not name"),
+    ("measures-twice", "error", "measured twice"),
+    ("measures-seconds", "error", 'measured in "s" (dimension s), but the case file says "mm" (dimension m)'),
+    ("skips", "error", "no metric of the case was gated"),
+    ("skips-silently", "error", "skipped without a reason"),
+    ("no-metric", "error", "the case has no metric"),
+])
+def test_verdict_and_reason(everything, case, verdict, reason):
+    data = result(everything[0], case)
+    assert data["verdict"] == verdict
+    assert reason in data.get("reason", "")
+    assert all(m["verdict"] != "pass" for m in data["metrics"]) or verdict == "pass" or case == "measures-more"
+
+
+def test_junit_has_a_test_case_for_each_metric(everything):
+    folder, _ = everything
+    suites = ET.parse(folder / "junit.xml").getroot()
+    assert int(suites.get("failures")) == 1
+    assert len(suites.findall("testsuite")) == 16
+    good = next(s for s in suites if s.get("name") == "misbehaving/good")
+    assert [c.get("name") for c in good.findall("testcase")] == ["length"]
+    assert good.find("testcase/failure") is None and good.find("testcase/error") is None
+    aborts = next(s for s in suites if s.get("name") == "misbehaving/aborts")
+    assert "signal 6" in aborts.find("testcase/error").get("message")
+
+
+def test_provenance_is_whole(everything):
+    provenance = json.loads((everything[0] / "run.json").read_text())["provenance"]
+    for key in ("commit", "dirty", "compiler", "flags", "threads", "cpu", "packages", "started", "program"):
+        assert provenance[key] not in ("", None), key
+    assert result(everything[0], "good")["provenance"]["inputs"]
+
+
+def test_a_red_metric_alone_is_exit_code_1_and_none_is_0(tmp_path):
+    assert run(MISBEHAVING, "run", "misbehaving/too-long", "--no-report", "--out", tmp_path / "a").returncode == 1
+    assert run(MISBEHAVING, "run", "misbehaving/good", "--no-report", "--out", tmp_path / "b").returncode == 0
+
+
+def test_quiet_prints_nothing(tmp_path):
+    ended = run(MISBEHAVING, "run", "misbehaving/good", "misbehaving/aborts", "--no-report", "--quiet", "--out", tmp_path / "run")
+    assert (ended.stdout, ended.stderr) == ("", "")
+
+
+def test_resume_keeps_what_is_whole_and_runs_the_rest(tmp_path):
+    arguments = ["run", "misbehaving/good", "misbehaving/too-long", "misbehaving/aborts", "--no-report", "--out", tmp_path / "run"]
+    run(MISBEHAVING, *arguments)
+    good = tmp_path / "run/misbehaving/good/result.json"
+    too_long = tmp_path / "run/misbehaving/too-long/result.json"
+    before = good.stat().st_mtime_ns
+    too_long.write_text('{"schema": 1, "case": "misb')
+    ended = run(MISBEHAVING, *arguments, "--resume")
+    assert ended.returncode == 3
+    assert "(1 kept from before)" in ended.stdout
+    assert good.stat().st_mtime_ns == before
+    assert json.loads(too_long.read_text())["verdict"] == "fail"
+
+
+def test_an_earlier_run_is_not_overwritten_by_accident(tmp_path):
+    arguments = ["run", "misbehaving/good", "--no-report", "--out", tmp_path / "run"]
+    run(MISBEHAVING, *arguments)
+    before = (tmp_path / "run/run.json").read_text()
+    ended = run(MISBEHAVING, *arguments)
+    assert ended.returncode == 2
+    assert "--resume" in ended.stderr and "--replace" in ended.stderr
+    assert (tmp_path / "run/run.json").read_text() == before
+    assert run(MISBEHAVING, *arguments, "--replace").returncode == 0
+
+
+def test_an_interrupt_stops_the_children_and_keeps_what_is_done(tmp_path):
+    folder = tmp_path / "run"
+    process = subprocess.Popen([MISBEHAVING, "run", "misbehaving/good", "misbehaving/never-ends", "--jobs", "2", "--no-report", "--out", folder,
+                                "--set", "time_limit.value=60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    done = folder / "misbehaving/good/result.json"
+    deadline = time.monotonic() + 20
+    while not done.exists() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    time.sleep(0.2)
+    children = [int(p) for p in open(f"/proc/{process.pid}/task/{process.pid}/children").read().split()]
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert json.loads(done.read_text())["verdict"] == "pass"
+    assert json.loads((folder / "run.json").read_text())["state"] == "interrupted"
+    assert (folder / "junit.xml").exists()
+    assert not (folder / "misbehaving/never-ends/result.json").exists()
+    assert children
+    for child in children:
+        with pytest.raises(ProcessLookupError):
+            os.kill(child, 0)
+
+
+def test_a_report_that_fails_is_said_and_is_exit_code_3(tmp_path):
+    ended = run(MISBEHAVING, "run", "misbehaving/good", "--out", tmp_path / "run", environment={"PYTHONHOME": "/nonexistent"})
+    assert ended.returncode == 3
+    assert "the report failed" in ended.stderr
+    assert json.loads((tmp_path / "run/run.json").read_text())["exit_code"] == 3
