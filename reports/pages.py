@@ -238,7 +238,7 @@ def bar(margin, verdict):
     if margin is None or margin.band == (None, None):
         return Markup("")
     low, high = margin.band
-    left, right, middle = 18.0, 102.0, 8.0
+    left, right, middle = (18.0, 102.0, 8.0) if low != high else (60.0, 60.0, 8.0)
     parts = [f'<rect class="track" x="{left if low is not None else 2:g}" y="{middle - 3:g}" '
              f'width="{(right if high is not None else 118) - (left if low is not None else 2):g}" height="6" rx="3"/>']
     for end, x in ((low, left), (high, right)):
@@ -249,7 +249,7 @@ def bar(margin, verdict):
         parts.append('<text class="none" x="60" y="11.6" text-anchor="middle">no number</text>')
         said = "no number"
     else:
-        x = min(115.0, max(5.0, left + place * (right - left)))
+        x = min(115.0, max(5.0, left + place * (right - left))) if low != high else 60.0 if margin.inside else (5.0 if place < 0.0 else 115.0)
         out = "" if margin.inside else " out"
         shape = f'<circle class="mark" cx="{x:.1f}" cy="{middle:g}" r="4"/>' if margin.inside else \
             f'<path class="mark" d="M{x - 4:.1f} {middle - 4:g}l8 8m0 -8l-8 8"/>'
