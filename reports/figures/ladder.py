@@ -32,7 +32,7 @@ def draw(metric, stamp):
         y = style.finite(ladder["value"])
         if is_error:
             y = [abs(v) if v != 0.0 else math.nan for v in y]
-            points += [(a, b) for a, b in zip(x, y) if math.isfinite(b) and a > 0.0]
+            points += [(a, b, ladder["state"]) for a, b in zip(x, y) if math.isfinite(b) and a > 0.0]
         axes.plot(x, y, label=name(ladder), markersize=5, **look)
         if not is_error and ladder["state"] == "asymptotic" and ladder["extrapolated"] is not None:
             limit, finest = ladder["extrapolated"], min(x)
@@ -86,6 +86,7 @@ def _slope(axes, points, ladders):
         return
     orders = [l["order"] for l in ladders if l["state"] == "asymptotic" and l["order"] is not None]
     slope = min(6, max(1, round(orders[0]))) if orders else 2
+    points = [p for p in points if p[2] != "round-off"] or points
     x_low, x_high = min(p[0] for p in points), max(p[0] for p in points)
     if x_high <= x_low:
         return

@@ -11,7 +11,7 @@ def draw(data, stamp):
     series = [s for s in data["series"] if s["x"]]
     names = [label(s["label"]) for s in series]
     columns = style.columns_for(names) if names else 1
-    shown = [n for n in names if n]
+    shown = list(dict.fromkeys(n for n in names if n))
     figure, axes = style.canvas(legend_rows=style.legend_rows(len(shown), columns) if len(shown) > 1 else 0)
     log_x, log_y = data["x"].get("log", False), data["y"].get("log", False)
     lost = 0
@@ -53,7 +53,7 @@ def draw(data, stamp):
     y_label = style.axis_label(data["y"]) + (f"  ({lost} zero or negative values not shown)" if lost else "")
     style.labels(axes, style.axis_label(data["x"]), y_label)
     if len(shown) > 1:
-        style.legend(figure, axes, columns, names)
+        style.legend(figure, axes, columns, shown)
     return style.save(figure, stamp, data["title"])
 
 

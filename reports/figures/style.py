@@ -50,8 +50,9 @@ ROLE_WORDS = {"computed": "computed", "reference": "reference", "experiment": "e
 def look(role, index, count):
     """Line and marker of the index-th series of a role. Computed: solid colours; the others look the same in every figure."""
     if role == "computed":
-        return dict(color=CYCLE[index % len(CYCLE)], linestyle=DASHES[index % len(DASHES)] if count > 4 else "-",
-                    marker=MARKERS[index % len(MARKERS)], linewidth=1.7, zorder=3)
+        turn = index // len(CYCLE)   # a second turn through the colours comes with other dashes and open markers
+        return dict(color=CYCLE[index % len(CYCLE)], linestyle=DASHES[(index + 3 * turn) % len(DASHES)] if count > 4 else "-",
+                    marker=MARKERS[index % len(MARKERS)], fillstyle="none" if turn % 2 else "full", linewidth=1.7, zorder=3)
     if role == "reference":
         return dict(color=INK, linestyle=REFERENCE_DASHES[index % len(REFERENCE_DASHES)], marker="None", linewidth=1.25, zorder=4)
     if role == "experiment":
@@ -64,7 +65,7 @@ def look(role, index, count):
 
 def canvas(plot_height=225.0, legend_rows=0, left=62.0, right=16.0, top=30.0, bottom=44.0, caption_rows=0):
     """A figure of fixed width with one axes of the given height in pixels, and room below for a legend and for the stamp."""
-    legend = 17.5 * legend_rows + (4.0 if legend_rows else 0.0)
+    legend = 15.0 * legend_rows + (4.0 if legend_rows else 0.0)
     height = top + plot_height + bottom + legend + 17.0
     figure = matplotlib.figure.Figure(figsize=(WIDTH / 72.0, height / 72.0), dpi=72)
     axes = figure.add_axes([left / WIDTH, (bottom + legend + 17.0) / height, (WIDTH - left - right) / WIDTH, plot_height / height])
@@ -105,8 +106,13 @@ def _decade(value, _=None):
 def log_axis(axis, low, high):
     """Decades as ticks; where less than two decades are seen, 1-2-5 with plain numbers."""
     decades = math.log10(high / low) if high > low > 0.0 else 1.0
+    if decades < 0.5:
+        axis.set_major_locator(matplotlib.ticker.MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
+        axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: number(v, 3)))
+        axis.set_minor_locator(matplotlib.ticker.NullLocator())
+        return
     if decades < 2.0:
-        axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0) if decades > 0.5 else range(1, 10)))
+        axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: number(v, 2)))
         axis.set_minor_locator(matplotlib.ticker.LogLocator(subs=range(1, 10), numticks=50))
         axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
@@ -123,10 +129,13 @@ def linear_axis(axis, low=0.0, high=1.0):
     """At most seven ticks with plain numbers; a range that is very large or small gets its power of ten on each tick."""
     axis.set_major_locator(matplotlib.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]))
     span = high - low
-    if span > 0.0 and abs(span) < 1e-4 * max(abs(low), abs(high)):   # ticks would all read the same: show the difference
+    largest = max(abs(low), abs(high))
+    digits = 2 + max(2, math.ceil(math.log10(largest / span))) if span > 0.0 and largest > 0.0 else 4   # so that no two ticks read the same
+    if digits > 5:
         axis.set_major_formatter(matplotlib.ticker.ScalarFormatter(useOffset=True))
+        axis.get_offset_text().set(x=1.0, ha="right", color=MUTED)   # away from the label of the axis
     else:
-        axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: number(0.0 if abs(v) < 1e-9 * span else v)))
+        axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: number(0.0 if abs(v) < 1e-9 * span else v, digits)))
 
 
 def legend_rows(count, columns=2):
