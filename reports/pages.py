@@ -149,7 +149,10 @@ def figures_of(case, provenance):
     pictures = []
     found = files.get("snapshots", [])
     for name, word in ((found[-1], "Last" if len(found) > 1 else "The"), *([(found[0], "First")] if len(found) > 1 else [])) if found else ():
-        pictures.append(Figure(file(f"snapshot-{name}"), f"{word} snapshot", name, f"Particles of snapshot {name}.", snapshot.draw,
+        moment = snapshot.time(case.folder / name)
+        factor, unit = numbers.prefixed(moment or 1.0, "s")
+        at = f", t = {numbers.quantity(factor * moment, unit)}" if moment is not None else ""
+        pictures.append(Figure(file(f"snapshot-{name}"), f"{word} snapshot{at}", name, f"Particles of snapshot {name}{at}.", snapshot.draw,
                                (case.folder / name, mark)))
     return convergence, series, pictures, own
 

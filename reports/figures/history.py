@@ -14,7 +14,9 @@ def groups(path):
     found = {}
     with h5py.File(path, "r") as file:
         length = len(file["time"])
-        for name, item in file.items():
+        order = [n if isinstance(n, str) else n.decode() for n in file.attrs.get("columns", [])]   # HDF5 itself sorts by alphabet
+        for name in sorted(file, key=lambda n: order.index(n) if n in order else len(order)):
+            item = file[name]
             if name != "time" and isinstance(item, h5py.Dataset) and item.ndim == 1 and len(item) == length:
                 found.setdefault(_unit(item), []).append(name)
     return [(unit, names[i:i + MOST_CURVES]) for unit, names in found.items() for i in range(0, len(names), MOST_CURVES)]

@@ -16,8 +16,7 @@ def draw(path, stamp):
         root = file["VTKHDF"]
         points = np.asarray(root["Points"], dtype=float)
         data = root.get("PointData", {})
-        name = next((n for n in TELLING if n in data), next(iter(sorted(data)), None))
-        values = np.asarray(data[name], dtype=float) if name else None
+        name, values = _most_telling(data)
         unit = _text(data[name].attrs.get("unit", "")) if name else ""
     extent = np.ptp(points, axis=0) if len(points) else np.zeros(3)
     across, up = sorted(np.argsort(extent, kind="stable")[::-1][:2])
@@ -34,6 +33,25 @@ def draw(path, stamp):
     names = tuple(with_unit("xyz"[i], length) for i in (across, up))
     return particles.cloud(factor * points[order, across], factor * points[order, up], values, names, with_unit(label, unit), [], stamp,
                            f"Particles of {path.name}")
+
+
+def time(path):
+    """Simulated time of a snapshot in s; None when the file does not tell."""
+    try:
+        with h5py.File(path, "r") as file:
+            return float(file["VTKHDF/FieldData/time"][0])
+    except (OSError, KeyError, IndexError):
+        return None
+
+
+def _most_telling(data):
+    """(name, values) of the first field in the order of TELLING that is not the same everywhere; any field when all are."""
+    names = [n for n in TELLING if n in data] + sorted(n for n in data if n not in TELLING and n not in ("id", "position"))
+    for name in names:
+        values = np.asarray(data[name], dtype=float)
+        if len(values) and np.ptp(values, axis=0).max() > 0.0:
+            return name, values
+    return (names[0], np.asarray(data[names[0]], dtype=float)) if names else (None, None)
 
 
 def _text(value):

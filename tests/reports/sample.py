@@ -66,17 +66,20 @@ def write_history(path):
         for name, unit, values in (("time", "s", time), ("kinetic_energy", "J", 60 * np.exp(-time / 2e-5)),
                                    ("elastic_energy", "J", 9 * (1 - np.exp(-time / 2e-5))), ("length", "m", 0.0254 - 120 * time)):
             file.create_dataset(name, data=values).attrs["unit"] = unit
+        file.attrs["columns"] = ["time", "length", "kinetic_energy", "elastic_energy"]
 
 
-def write_snapshot(path, n=48):
+def write_snapshot(path, time, n=48):
     x, y = np.meshgrid(np.linspace(0, 0.0254, 3 * n), np.linspace(-0.0038, 0.0038, n))
     with h5py.File(path, "w") as file:
         root = file.create_group("VTKHDF")
         root.attrs["Version"] = (1, 0)
         root.create_dataset("Points", data=np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)]))
         data = root.create_group("PointData")
-        data.create_dataset("plastic_strain", data=np.exp(-x.ravel() / 0.006) * (1 - 0.3 * (y.ravel() / 0.0038) ** 2)).attrs["unit"] = "1"
-        data.create_dataset("velocity", data=np.zeros((x.size, 3))).attrs["unit"] = "m/s"
+        strain = 1e4 * time * np.exp(-x.ravel() / 0.006) * (1 - 0.3 * (y.ravel() / 0.0038) ** 2)   # none yet in the first snapshot
+        data.create_dataset("plastic_strain", data=strain).attrs["unit"] = "1"
+        data.create_dataset("velocity", data=np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]) * -6e3).attrs["unit"] = "m/s"
+        root.create_group("FieldData").create_dataset("time", data=[time]).attrs["unit"] = "s"
 
 
 CITATION = {"key": "johnson-cook-1983", "text": "Johnson, G. R. & Cook, W. H. A constitutive model and data for metals subjected to large "
@@ -142,8 +145,8 @@ def write(folder, copies=0):
         (place / "result.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8")
         if "history" in data["files"]:
             write_history(place / "history.h5")
-        for name in data["files"].get("snapshots", []):
-            write_snapshot(place / name)
+        for i, name in enumerate(data["files"].get("snapshots", [])):
+            write_snapshot(place / name, 8e-5 * i)
     run = {"schema": 1, "tier": "smoke", "cases": sorted(cases), "jobs": 2, "wall_s": 14.2, "cpu_s": 25.0, "provenance": PROVENANCE}
     (folder / "run.json").write_text(json.dumps(run), encoding="utf-8")
     return cases

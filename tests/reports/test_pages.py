@@ -153,7 +153,7 @@ def test_a_case_page_tells_what_it_must(built):
     _, _, report = built
     page = page_of(report, "taylor-bar/copper-190")
     for words in ("A bar hits a rigid wall.", "16.21 ± 0.10", "0.56\u202f%", "± 3\u202f%", "speed=190 m/s", "Johnson, G. R. & Cook, W. H.", "doi:10.1000/example",
-                  "experiment", "no probe at this resolution", "GNU 12.2.0", "Last snapshot", "First snapshot", "History of length"):
+                  "experiment", "no probe at this resolution", "GNU 12.2.0", "Last snapshot, t = 80\u202fµs", "First snapshot, t = 0\u202f", "History of length"):
         assert words.replace("\u202f", " ") in page.text.replace("\u202f", " "), words
     sources = [a["src"] for a in page.all("img")]
     assert "snapshot-last" in sources[0]
@@ -179,6 +179,19 @@ def test_an_interrupted_run_and_kept_results_are_told(run):
     assert "The run was interrupted" in text
     assert "kept from 0123456789, 2 January 2026, 03:04 UTC" in text
     assert "it left no result.json" in text
+
+
+def test_a_snapshot_shows_the_quantity_that_varies(built):
+    _, _, report = built
+    first, last = ((report / "figures/taylor-bar/copper-190" / f"snapshot-{n}.vtkhdf.svg").read_text() for n in ("first", "last"))
+    assert "|velocity|, m/s" in first and "plastic strain" not in first
+    assert "plastic strain" in last
+
+
+def test_a_history_keeps_the_order_of_its_columns(built):
+    _, _, report = built
+    text = page_of(report, "taylor-bar/copper-190").text
+    assert text.index("History of length") < text.index("History of kinetic energy, elastic energy")
 
 
 def test_no_baseline_is_said(built):
