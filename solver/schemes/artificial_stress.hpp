@@ -16,12 +16,8 @@ struct ArtificialStress {
 /// R of one particle, m^5/(kg s^2): `stress` the block of the stress in the space of motion.
 template <int Dim>
 Matrix<Dim> artificial_stress(const ArtificialStress& model, const Matrix<Dim>& stress, double density) {
-  // No principal stress can be positive when the trace is below minus (Dim - 1) times the largest possible deviation.
-  const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> principal = [&] {
-    Eigen::SelfAdjointEigenSolver<Matrix<Dim>> solver;
-    solver.computeDirect(stress);
-    return solver;
-  }();
+  Eigen::SelfAdjointEigenSolver<Matrix<Dim>> principal;
+  principal.computeDirect(stress);
   const Vector<Dim> tension = principal.eigenvalues().cwiseMax(0.0);
   if (tension.isZero(0.0)) return Matrix<Dim>::Zero();
   const Matrix<Dim>& axes = principal.eigenvectors();
