@@ -38,16 +38,22 @@ concept Material = requires(const M& m, const MaterialState& state, const Increm
   { m.stored_energy(state) } -> std::same_as<double>;            // recoverable, J/kg
 };
 
-/// One step of a material point: density by continuity, half the spin, the law's own response, the other half of the spin.
-/// Of second order in dt for any path; exact in the stress's invariants under pure spin (Jaumann rate).
+/// One step at a density that is known already: half the spin, the law's own response, the other half of the spin. Of second
+/// order in dt for any path; exact in the stress's invariants under pure spin (Jaumann rate).
 template <class M>
-MaterialState advance(const M& material, MaterialState state, const Increment& increment) {
+MaterialState turn_and_respond(const M& material, MaterialState state, const Increment& increment) {
   const Tensor half_turn = rotation(0.5 * increment.spin);
-  state.density *= std::exp(-increment.strain.trace());
   state.stress = rotated(state.stress, half_turn);
   state = material.respond(state, increment);
   state.stress = rotated(state.stress, half_turn);
   return state;
+}
+
+/// One step of a material point, its density by continuity.
+template <class M>
+MaterialState advance(const M& material, MaterialState state, const Increment& increment) {
+  state.density *= std::exp(-increment.strain.trace());
+  return turn_and_respond(material, state, increment);
 }
 
 }  // namespace furrow

@@ -15,17 +15,18 @@ struct Field {
   std::string_view symbol, name, unit, meaning;
 };
 
-/// One array per field, elements of fixed size, all of one length; sorted by cell whenever neighbours are rebuilt.
+/// One array per field, elements of fixed size; sorted by cell whenever neighbours are rebuilt. Behind the particles proper, the
+/// arrays that neighbours read (position, velocity, mass, density, sound speed) may carry images of them (images.hpp).
 template <int Dim>
 struct Particles {
   std::vector<std::int32_t> id;
-  std::vector<Vector<Dim>> position, velocity, acceleration;
+  std::vector<Vector<Dim>> position, velocity, acceleration, position_at_build;
   std::vector<double> mass, density;
   std::vector<Tensor> stress;
   std::vector<double> sound_speed;
   std::vector<double> internal_energy, plastic_strain, plastic_work, temperature, fracture_onset, damage;
 
-  std::size_t size() const { return position.size(); }
+  std::size_t size() const { return id.size(); }   ///< without images
   double volume(std::size_t i) const { return mass[i] / density[i]; }
 };
 
@@ -36,6 +37,7 @@ void for_each_field(P& p, Visitor&& visit) {
   visit(Field{"x", "position", "m", "position"}, p.position);
   visit(Field{"v", "velocity", "m/s", "velocity"}, p.velocity);
   visit(Field{"a", "acceleration", "m/s^2", "acceleration at the end of the last step"}, p.acceleration);
+  visit(Field{"x_b", "position_at_build", "m", "position when neighbours were last found"}, p.position_at_build);
   visit(Field{"m", "mass", "kg", "mass; per metre of width in plane strain"}, p.mass);
   visit(Field{"rho", "density", "kg/m^3", "density"}, p.density);
   visit(Field{"sigma", "stress", "Pa", "Cauchy stress, tension positive"}, p.stress);
@@ -48,7 +50,7 @@ void for_each_field(P& p, Visitor&& visit) {
   visit(Field{"D", "damage", "1", "damage, 1 when failed"}, p.damage);
 }
 
-/// Gives every field n elements; new ones are zero.
+/// Gives every field n elements; new ones are zero, images are dropped.
 template <int Dim>
 void resize(Particles<Dim>& p, std::size_t n) {
   for_each_field(p, [n](const Field&, auto& array) {
@@ -60,11 +62,12 @@ void resize(Particles<Dim>& p, std::size_t n) {
   });
 }
 
-/// New element k is old element order[k], in every field.
+/// New element k is old element order[k], in every field; images are dropped.
 template <int Dim>
 void permute(Particles<Dim>& p, const std::vector<std::int32_t>& order) {
   for_each_field(p, [&order](const Field&, auto& array) {
     auto sorted = array;
+    sorted.resize(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = array[static_cast<std::size_t>(order[k])];
     array.swap(sorted);
   });

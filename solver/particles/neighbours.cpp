@@ -79,9 +79,11 @@ struct Beside {
   Beside(std::int32_t k, std::int32_t cells, bool periodic) {
     for (std::int32_t at = k - 1; at <= k + 1; ++at) {
       const std::int32_t image = periodic ? (at + cells) % cells : at;
-      if (image >= 0 && image < cells && std::find(cell, cell + count, image) == cell + count) cell[count++] = image;
+      if (image < 0 || image >= cells || std::find(cell, cell + count, image) != cell + count) continue;
+      int place = count++;
+      for (; place > 0 && cell[place - 1] > image; --place) cell[place] = cell[place - 1];
+      cell[place] = image;
     }
-    std::sort(cell, cell + count);
   }
 };
 
@@ -111,9 +113,10 @@ void for_each_run(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& ce
 }  // namespace
 
 template <int Dim>
-void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin, std::span<const Vector<Dim>> position,
+void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin,
+                      const std::vector<std::int32_t>& image_begin, std::span<const Vector<Dim>> position, std::size_t proper,
                       double reach, NeighbourList& list) {
-  const auto n = static_cast<std::int64_t>(position.size());
+  const auto n = static_cast<std::int64_t>(proper);
   const double reach2 = reach * reach;
   const bool periodic = grid.box.any_periodic();
   list.reach = reach;
@@ -130,7 +133,7 @@ void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>
     for (std::int64_t i = 0; i < n; ++i) {
       const Vector<Dim> x_i = position[static_cast<std::size_t>(i)];
       const std::size_t first = block.size();
-      for_each_run<Dim>(grid, cell_begin, grid.cell_of(x_i), [&](std::int32_t from, std::int32_t to) {
+      const auto keep_near = [&](std::int32_t from, std::int32_t to) {
         const std::size_t before = block.size();
         block.resize(before + static_cast<std::size_t>(to - from));
         std::int32_t* out = block.data() + before;
@@ -141,7 +144,13 @@ void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>
           out += static_cast<int>(r2 < reach2) & static_cast<int>(j != i);
         }
         block.resize(static_cast<std::size_t>(out - block.data()));
-      });
+      };
+      const std::int32_t home = grid.cell_of(x_i);
+      for_each_run<Dim>(grid, cell_begin, home, keep_near);
+      if (!image_begin.empty())
+        for_each_run<Dim>(grid, image_begin, home, [&](std::int32_t from, std::int32_t to) {
+          keep_near(static_cast<std::int32_t>(n) + from, static_cast<std::int32_t>(n) + to);
+        });
       list.count[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(block.size() - first);
       while ((block.size() - first) % lane_count != 0) block.push_back(static_cast<std::int32_t>(i));
       list.begin[static_cast<std::size_t>(i) + 1] = static_cast<std::int64_t>(block.size() - first);
@@ -157,7 +166,8 @@ void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>
   template struct CellGrid<Dim>;                                                                             \
   template CellOrder order_by_cell<Dim>(const CellGrid<Dim>&, std::span<const Vector<Dim>>);                 \
   template void build_neighbours<Dim>(const CellGrid<Dim>&, const std::vector<std::int32_t>&,                \
-                                      std::span<const Vector<Dim>>, double, NeighbourList&);
+                                      const std::vector<std::int32_t>&, std::span<const Vector<Dim>>,        \
+                                      std::size_t, double, NeighbourList&);
 FURROW_INSTANTIATE(1)
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)

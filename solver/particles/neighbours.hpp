@@ -45,10 +45,19 @@ struct NeighbourList {
   }
 };
 
-/// Positions must be sorted by the grid's cells; `cell_begin` as order_by_cell gives it. Rows list neighbours by rising cell
-/// and index, whatever the number of threads.
+/// Rows for the first `proper` positions; those behind are images, neighbours only. Both parts must be sorted by the grid's
+/// cells; `cell_begin` and `image_begin` as order_by_cell gives them for each. Rows list neighbours by rising cell and index,
+/// whatever the number of threads.
+template <int Dim>
+void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin,
+                      const std::vector<std::int32_t>& image_begin, std::span<const Vector<Dim>> position, std::size_t proper,
+                      double reach, NeighbourList& list);
+
+/// The same where there are no images.
 template <int Dim>
 void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin, std::span<const Vector<Dim>> position,
-                      double reach, NeighbourList& list);
+                      double reach, NeighbourList& list) {
+  build_neighbours<Dim>(grid, cell_begin, {}, position, position.size(), reach, list);
+}
 
 }  // namespace furrow

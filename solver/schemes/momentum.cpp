@@ -66,9 +66,9 @@ void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<co
               std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
   const bool dual = !correction.empty();
   const auto n = static_cast<std::int64_t>(p.size());
-  w.A.resize(p.size());
-  w.weight.resize(p.size());
-  if (terms.artificial_stress) w.R.resize(p.size());
+  w.A.resize(stencil.position.size());
+  w.weight.resize(stencil.position.size());
+  if (terms.artificial_stress) w.R.resize(stencil.position.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -82,6 +82,11 @@ void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<co
       w.weight[i] = p.mass[i];
     }
     if (terms.artificial_stress) w.R[i] = artificial_stress<Dim>(*terms.artificial_stress, sigma, rho);
+  }
+  if (stencil.images) {
+    stencil.images->fill(std::span(w.weight));
+    stencil.images->fill_tensors(std::span(w.A));
+    if (terms.artificial_stress) stencil.images->fill_tensors(std::span(w.R));
   }
   const auto run = [&]<bool Viscous, bool Artificial>() {
     sum_pairs<Dim, Viscous, Artificial>(stencil, p, velocity, dual, terms, w, acceleration, power);

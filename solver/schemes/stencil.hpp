@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "solver/particles/images.hpp"
 #include "solver/particles/neighbours.hpp"
 #include "solver/smoothing/kernels.hpp"
 
@@ -17,10 +18,11 @@ struct Stencil {
   AnyKernel kernel;
   double smoothing_length;   ///< h, m
   Box<Dim> box;
-  std::span<const Vector<Dim>> position;
+  std::span<const Vector<Dim>> position;   ///< images behind the particles proper
   const NeighbourList* neighbours;
+  const Images<Dim>* images = nullptr;     ///< where there are any
 
-  std::size_t size() const { return position.size(); }
+  std::size_t size() const { return neighbours->size(); }   ///< particles that sum, without images
 };
 
 /// Pairs (i, j) of one particle i with eight neighbours j.

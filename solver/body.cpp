@@ -1,0 +1,236 @@
+#include "solver/body.hpp"
+
+#include "solver/schemes/density.hpp"
+#include "solver/schemes/kernel_correction.hpp"
+#include "solver/schemes/velocity_gradient.hpp"
+
+namespace furrow {
+namespace {
+
+/// Neighbours are found a little further than the support reaches, so that a list serves for many steps.
+constexpr double skin = 0.08;
+
+}  // namespace
+
+template <int Dim>
+Stencil<Dim> Body<Dim>::stencil() const {
+  return {scheme.kernel, smoothing_length(), box, particles.position, &neighbours_, images.empty() ? nullptr : &images};
+}
+
+template <int Dim>
+MaterialState Body<Dim>::state(std::size_t i) const {
+  const Particles<Dim>& p = particles;
+  MaterialState s;
+  s.stress = p.stress[i];
+  s.density = p.density[i];
+  s.internal_energy = p.internal_energy[i];
+  s.plastic_strain = p.plastic_strain[i];
+  s.temperature = p.temperature[i];
+  s.damage = p.damage[i];
+  return s;
+}
+
+template <int Dim>
+void Body<Dim>::set_state(std::size_t i, const MaterialState& s) {
+  Particles<Dim>& p = particles;
+  p.stress[i] = s.stress;
+  p.density[i] = s.density;
+  p.internal_energy[i] = s.internal_energy;
+  p.plastic_strain[i] = s.plastic_strain;
+  p.temperature[i] = s.temperature;
+  p.damage[i] = s.damage;
+}
+
+template <int Dim>
+void Body<Dim>::add(const std::vector<Vector<Dim>>& positions, const Vector<Dim>& velocity) {
+  const std::size_t first = particles.size();
+  resize(particles, first + positions.size());
+  const MaterialState initial = std::visit([](const auto& m) { return m.initial_state(); }, material);
+  const double c = std::visit([&](const auto& m) { return m.sound_speed(initial); }, material);
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const std::size_t i = first + k;
+    particles.id[i] = static_cast<std::int32_t>(i);
+    particles.position[i] = positions[k];
+    particles.velocity[i] = velocity;
+    particles.mass[i] = initial.density * std::pow(spacing, Dim);
+    particles.sound_speed[i] = c;
+    set_state(i, initial);
+  }
+}
+
+template <int Dim>
+void Body<Dim>::find_neighbours() {
+  Particles<Dim>& p = particles;
+  const std::size_t n = p.size();
+  const double reach = (1.0 + skin) * support(scheme.kernel) * smoothing_length();
+  // One grid over particles and images; both parts are sorted by its cells, images after what they are images of.
+  std::vector<Vector<Dim>> seen(p.position_at_build.begin(), p.position_at_build.begin() + static_cast<std::ptrdiff_t>(n));
+  const std::vector<Vector<Dim>> mirrored = images.choose(seen, reach);
+  seen.insert(seen.end(), mirrored.begin(), mirrored.end());
+  const CellGrid<Dim> grid(seen, reach, box);
+  const CellOrder proper = order_by_cell<Dim>(grid, std::span(seen).first(n));
+  permute(p, proper.order);
+  const std::vector<Vector<Dim>> unsorted = images.choose(p.position_at_build, reach);
+  const CellOrder mirror = order_by_cell<Dim>(grid, unsorted);
+  images.permute(mirror.order);
+  std::copy_n(p.position_at_build.begin(), n, seen.begin());
+  images.fill_positions(seen);
+  build_neighbours<Dim>(grid, proper.begin, mirror.begin, seen, n, reach, neighbours_);
+
+  index_of_id_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) index_of_id_[static_cast<std::size_t>(p.id[i])] = static_cast<std::int32_t>(i);
+  velocity_gradient_.resize(n);
+  power_.resize(n);
+  const std::size_t extended = n + images.size();
+  p.position.resize(extended);
+  p.velocity.resize(extended);
+  p.mass.resize(extended);
+  p.density.resize(extended);
+  p.sound_speed.resize(extended);
+  volume_.resize(extended);
+  if (scheme.correction) correction_.resize(n);
+  ++builds_;
+}
+
+template <int Dim>
+void Body<Dim>::refresh_neighbours(bool force) {
+  Particles<Dim>& p = particles;
+  const std::size_t n = p.size();
+  const double allowed = 0.5 * skin * support(scheme.kernel) * smoothing_length();
+  double moved2 = 0.0;
+  if (!force) {
+#pragma omp parallel for schedule(static) reduction(max : moved2)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double d2 = (p.position[i] - p.position_at_build[i]).squaredNorm();
+      moved2 = d2 < moved2 ? moved2 : d2;   // keeps NaN
+    }
+  }
+  if (force || !(moved2 < allowed * allowed)) {
+    for (std::size_t i = 0; i < n; ++i) p.position[i] = box.wrapped(p.position[i]);
+    std::copy_n(p.position.begin(), n, p.position_at_build.begin());
+    find_neighbours();
+  }
+  fill_images();
+}
+
+template <int Dim>
+void Body<Dim>::restore_neighbours() {
+  find_neighbours();
+  fill_images();
+}
+
+template <int Dim>
+void Body<Dim>::fill_images() {
+  if (images.empty()) return;
+  images.fill_positions(particles.position);
+  images.fill_velocities(particles.velocity);
+  images.fill(particles.mass);
+  images.fill(particles.density);
+  images.fill(particles.sound_speed);
+}
+
+template <int Dim>
+std::span<const Matrix<Dim>> Body<Dim>::correction() {
+  Particles<Dim>& p = particles;
+  const auto extended = static_cast<std::int64_t>(p.position.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < extended; ++k) volume_[static_cast<std::size_t>(k)] = p.volume(static_cast<std::size_t>(k));
+  if (!scheme.correction) return {};
+  kernel_correction<Dim>(stencil(), volume_, correction_);
+  return correction_;
+}
+
+template <int Dim>
+double Body<Dim>::respond(double dt, std::int64_t step) {
+  Particles<Dim>& p = particles;
+  const Stencil<Dim> s = stencil();
+  const std::span<const Matrix<Dim>> B = correction();
+  furrow::velocity_gradient<Dim>(s, volume_, p.velocity, B, velocity_gradient_);
+
+  const bool shepard = scheme.density == DensityEquation::shepard ||
+                       (scheme.shepard_every > 0 && step % scheme.shepard_every == scheme.shepard_every - 1);
+  if (shepard || scheme.density == DensityEquation::summation) density_before_.assign(p.density.begin(), p.density.end());
+  if (scheme.density == DensityEquation::continuity) {
+    const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      p.density[i] *= std::exp(-velocity_gradient_[i].trace() * dt);
+    }
+  } else if (scheme.density == DensityEquation::summation) {
+    summation_density<Dim>(s, p.mass, p.density);
+  }
+  if (shepard) {
+    if (!images.empty()) images.fill(p.density);
+    density_before_.assign(p.density.begin(), p.density.end());
+    shepard_density<Dim>(s, p.mass, density_before_, p.density);
+  }
+
+  std::visit(
+      [&](const auto& law) {
+        const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for schedule(static)
+        for (std::int64_t k = 0; k < n; ++k) {
+          const auto i = static_cast<std::size_t>(k);
+          const Tensor L = embed<Dim>(velocity_gradient_[i]);
+          const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
+          set_state(i, next);
+          p.sound_speed[i] = law.sound_speed(next);
+        }
+      },
+      material);
+
+  double compression = 0.0;
+  for (const Matrix<Dim>& L : velocity_gradient_) compression = std::max(compression, -L.trace());
+  return compression;
+}
+
+template <int Dim>
+void Body<Dim>::accelerate(double time, std::span<const Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  const std::size_t n = p.size();
+  const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
+  momentum<Dim>(stencil(), p, velocity, correction(), terms, workspace_, p.acceleration, power_);
+
+  wall_forces_.clear();
+  for (const RigidWall<Dim>& wall : walls) wall_forces_.push_back(wall.push(p, spacing, p.acceleration));
+  external_power_ = damping_power_ = 0.0;
+  if (loads.damping > 0.0 || !loads.gravity.isZero(0.0))
+    for (std::size_t i = 0; i < n; ++i) {
+      p.acceleration[i] += loads.gravity - loads.damping * velocity[i];
+      external_power_ += p.mass[i] * loads.gravity.dot(velocity[i]);
+      damping_power_ += p.mass[i] * loads.damping * velocity[i].squaredNorm();
+    }
+  for (const AppliedForce<Dim>& load : loads.forces) {
+    double mass = 0.0;
+    for (const std::int32_t id : load.ids) mass += p.mass[index_of(id)];
+    const Vector<Dim> a = load.force(time) / mass;
+    for (const std::int32_t id : load.ids) {
+      const std::size_t i = index_of(id);
+      p.acceleration[i] += a;
+      external_power_ += p.mass[i] * a.dot(velocity[i]);
+    }
+  }
+  reactions_.assign(loads.motions.size(), Vector<Dim>::Zero());
+  for (std::size_t k = 0; k < loads.motions.size(); ++k)
+    for (const std::int32_t id : loads.motions[k].ids) {
+      const std::size_t i = index_of(id);
+      reactions_[k] += p.mass[i] * p.acceleration[i];
+      // Whatever the body does to a prescribed particle, the one who prescribes takes up.
+      external_power_ -= p.mass[i] * p.acceleration[i].dot(velocity[i]);
+      p.acceleration[i].setZero();
+    }
+}
+
+template <int Dim>
+void Body<Dim>::prescribe(double time, std::span<Vector<Dim>> velocity) const {
+  for (const PrescribedMotion<Dim>& motion : loads.motions) {
+    const Vector<Dim> v = motion.velocity(time);
+    for (const std::int32_t id : motion.ids) velocity[index_of(id)] = v;
+  }
+}
+
+template class Body<2>;
+template class Body<3>;
+
+}  // namespace furrow

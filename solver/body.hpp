@@ -1,0 +1,86 @@
+// Body: particles of one material with the scheme that discretises them. It knows how to find its neighbours, how its stress
+// answers a motion and how its stress accelerates it; when each of these happens is the integrator's business.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/boundaries/constraints.hpp"
+#include "solver/boundaries/wall.hpp"
+#include "solver/materials/materials.hpp"
+#include "solver/particles/fields.hpp"
+#include "solver/particles/images.hpp"
+#include "solver/schemes/momentum.hpp"
+#include "solver/schemes/scheme.hpp"
+
+namespace furrow {
+
+template <int Dim>
+class Body {
+ public:
+  std::string name = "body";
+  Particles<Dim> particles;
+  AnyMaterial material;
+  Scheme scheme;
+  double spacing = 0.0;   ///< dx, m
+  Box<Dim> box;
+  Loads<Dim> loads;
+  std::vector<RigidWall<Dim>> walls;
+  Images<Dim> images;
+
+  double smoothing_length() const { return scheme.smoothing_ratio * spacing; }
+  Stencil<Dim> stencil() const;
+
+  /// Appends particles at these positions with the material's initial state, the velocity and the mass rho dx^Dim; ids go on
+  /// counting.
+  void add(const std::vector<Vector<Dim>>& positions, const Vector<Dim>& velocity = Vector<Dim>::Zero());
+
+  /// Sorts particles and finds neighbours when something has moved further than the skin allows, and brings images up to date.
+  /// `force` does so in any case.
+  void refresh_neighbours(bool force = false);
+  /// The list exactly as it was when positions were position_at_build: what a restart needs to go on bit for bit.
+  void restore_neighbours();
+
+  /// State after dt of the present motion, seen from the present
+  /// positions: velocity gradient, density equation, material law. Returns the largest rate of compression -tr L, 1/s.
+  double respond(double dt, std::int64_t step);
+
+  /// Accelerations from stress, walls, gravity, damping and applied forces at `time`; `velocity` is that of the same time.
+  void accelerate(double time, std::span<const Vector<Dim>> velocity);
+
+  /// Sets the velocity of prescribed particles.
+  void prescribe(double time, std::span<Vector<Dim>> velocity) const;
+
+  std::size_t index_of(std::int32_t id) const { return static_cast<std::size_t>(index_of_id_[static_cast<std::size_t>(id)]); }
+  const NeighbourList& neighbours() const { return neighbours_; }
+  std::span<const MomentumPower> power() const { return power_; }
+  const std::vector<Matrix<Dim>>& velocity_gradient() const { return velocity_gradient_; }
+  std::span<const double> wall_forces() const { return wall_forces_; }
+  /// Power of everything from outside but walls, and force on each prescribed motion's particles from the body, as of the last
+  /// accelerate().
+  double external_power() const { return external_power_; }
+  double damping_power() const { return damping_power_; }
+  const std::vector<Vector<Dim>>& reactions() const { return reactions_; }
+  std::int64_t builds() const { return builds_; }
+
+  MaterialState state(std::size_t i) const;
+  void set_state(std::size_t i, const MaterialState& state);
+
+ private:
+  void find_neighbours();
+  void fill_images();
+  std::span<const Matrix<Dim>> correction();
+
+  NeighbourList neighbours_;
+  std::vector<std::int32_t> index_of_id_;
+  std::vector<Matrix<Dim>> velocity_gradient_, correction_;
+  std::vector<double> volume_, density_before_;
+  std::vector<MomentumPower> power_;
+  MomentumWorkspace<Dim> workspace_;
+  std::vector<double> wall_forces_;
+  std::vector<Vector<Dim>> reactions_;
+  double external_power_ = 0.0, damping_power_ = 0.0;
+  std::int64_t builds_ = 0;
+};
+
+}  // namespace furrow

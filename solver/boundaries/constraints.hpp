@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solver/tensor/tensor.hpp"
+
+namespace furrow {
+
+/// Particles, by id, that move as prescribed whatever acts on them: clamps, pistons, rigid parts of a body. Their stress still
+/// follows from the motion around them.
+template <int Dim>
+struct PrescribedMotion {
+  std::string name;
+  std::vector<std::int32_t> ids;
+  std::function<Vector<Dim>(double time)> velocity;   ///< m/s
+};
+
+/// A force shared by particles, by id, in proportion to their mass: a traction on a tip, a load on a patch.
+template <int Dim>
+struct AppliedForce {
+  std::string name;
+  std::vector<std::int32_t> ids;
+  std::function<Vector<Dim>(double time)> force;      ///< N in all; per metre of width in plane strain
+};
+
+/// Everything that acts on a body from outside.
+template <int Dim>
+struct Loads {
+  Vector<Dim> gravity = Vector<Dim>::Zero();          ///< m/s^2
+  double damping = 0.0;                               ///< 1/s: acceleration -damping v, to reach rest; 0 = none
+  std::vector<PrescribedMotion<Dim>> motions;
+  std::vector<AppliedForce<Dim>> forces;
+};
+
+}  // namespace furrow

@@ -1,0 +1,34 @@
+#include "solver/integrators/step_control.hpp"
+
+namespace furrow {
+
+template <int Dim>
+StepLength step_length(const Body<Dim>& body, double compression, const StepControl& control) {
+  if (control.fixed) return {control.largest, StepLimiter::courant};
+  const Particles<Dim>& p = body.particles;
+  const double h = body.smoothing_length();
+  const auto n = static_cast<std::int64_t>(p.size());
+  double c = 0.0, a2 = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : c, a2)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    c = std::max(c, p.sound_speed[i]);
+    a2 = std::max(a2, p.acceleration[i].squaredNorm());
+  }
+  StepLength step{control.courant * h / c, StepLimiter::courant};
+  const auto limit = [&step](double dt, StepLimiter limiter) {
+    if (dt < step.dt) step = {dt, limiter};
+  };
+  if (const auto& viscosity = body.scheme.viscosity) {
+    const double mu = h * compression;
+    limit(control.courant * h / (c + 0.6 * (viscosity->alpha * c + viscosity->beta * mu)), StepLimiter::viscous);
+  }
+  if (a2 > 0.0) limit(control.force * std::sqrt(h / std::sqrt(a2)), StepLimiter::force);
+  if (control.largest > 0.0) limit(control.largest, StepLimiter::courant);
+  return step;
+}
+
+template StepLength step_length<2>(const Body<2>&, double, const StepControl&);
+template StepLength step_length<3>(const Body<3>&, double, const StepControl&);
+
+}  // namespace furrow

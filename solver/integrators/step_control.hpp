@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+
+#include "solver/body.hpp"
+
+namespace furrow {
+
+/// What set the length of a step.
+enum class StepLimiter { courant, viscous, force, end_of_run };
+constexpr std::string_view name_of(StepLimiter limiter) {
+  constexpr std::string_view names[] = {"courant", "viscous", "force", "end of run"};
+  return names[static_cast<int>(limiter)];
+}
+
+struct StepControl {
+  double courant = 0.3;   ///< times h/c
+  double force = 0.25;    ///< times sqrt(h/a)
+  double largest = 0.0;   ///< s; 0 = no such limit. Taken for every step where `fixed` is set
+  bool fixed = false;
+};
+
+struct StepLength {
+  double dt;
+  StepLimiter limiter;
+};
+
+/// The smallest of the Courant condition h/c, the same with artificial viscosity h/(c + 0.6 (alpha c + beta mu)) (Monaghan 1992)
+/// and the force condition sqrt(h/a), each with its factor; mu = h times `compression`, the largest -tr L (1/s). Limiter `courant` stands for a length given from outside as well.
+template <int Dim>
+StepLength step_length(const Body<Dim>& body, double compression, const StepControl& control);
+
+}  // namespace furrow

@@ -1,0 +1,30 @@
+// Scheme: the numerical choices of a body, by name. The paper's form and the right form stand side by side.
+#pragma once
+
+#include <optional>
+
+#include "solver/schemes/artificial_stress.hpp"
+#include "solver/schemes/viscosity.hpp"
+#include "solver/smoothing/kernels.hpp"
+
+namespace furrow {
+
+enum class DensityEquation {
+  continuity,   ///< d rho/dt = -rho tr L
+  shepard,      ///< paper Eq. 7 and nothing else: a uniform density never changes
+  summation     ///< paper Eq. 6 with f = rho
+};
+
+struct Scheme {
+  AnyKernel kernel = WendlandC2{};
+  double smoothing_ratio = 1.5;                          ///< h/dx
+  bool correction = true;                                ///< Bonet & Lok, with the dual momentum form; else the paper's form
+  DensityEquation density = DensityEquation::continuity;
+  int shepard_every = 0;                                 ///< steps between re-normalisations of the density by Eq. 7; 0 = never
+  std::optional<ArtificialViscosity> viscosity = ArtificialViscosity{};
+  std::optional<ArtificialStress> artificial_stress;
+  double xsph = 0.0;                                     ///< eps of XSPH; 0 = off
+  bool energy = true;                                    ///< stress work and viscous heat go into internal energy
+};
+
+}  // namespace furrow

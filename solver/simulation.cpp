@@ -1,0 +1,194 @@
+#include "solver/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include "solver/schemes/xsph.hpp"
+
+namespace furrow {
+
+template <int Dim>
+void Simulation<Dim>::start() {
+  Particles<Dim>& p = body.particles;
+  body.refresh_neighbours(true);
+  body.prescribe(0.0, p.velocity);
+  body.refresh_neighbours();
+  body.accelerate(0.0, p.velocity);
+  energy_ = {};
+  for (std::size_t i = 0; i < p.size(); ++i) initial_internal_ += p.mass[i] * p.internal_energy[i] - stored(i);
+  powers_ = powers();
+  account(0.0);
+  initial_energy_ = energy_.total();
+}
+
+template <int Dim>
+void Simulation<Dim>::step(double end) {
+  Particles<Dim>& p = body.particles;
+  const std::size_t n = p.size();
+  const StepLength length = step_length(body, compression_, control);
+  const bool last = time_ + length.dt >= end;
+  const double dt = last ? end - time_ : length.dt;
+  limiter_ = last ? StepLimiter::end_of_run : length.limiter;
+
+  // Kick to the middle of the step.
+  for (std::size_t i = 0; i < n; ++i) p.velocity[i] += 0.5 * dt * p.acceleration[i];
+  body.prescribe(time_ + 0.5 * dt, p.velocity);
+
+  // Drift there, let the stress answer the motion of the whole step, drift on to its end.
+  drift(0.5 * dt);
+  compression_ = body.respond(dt, steps_);
+  drift(0.5 * dt);
+
+  // Viscosity and damping depend on the velocity at the end of the step: predicted with the old acceleration.
+  predicted_.resize(p.position.size());
+  for (std::size_t i = 0; i < n; ++i) predicted_[i] = p.velocity[i] + 0.5 * dt * p.acceleration[i];
+  body.prescribe(time_ + dt, predicted_);
+  body.images.fill_velocities(predicted_);
+  body.accelerate(time_ + dt, predicted_);
+
+  // Kick to the end.
+  for (std::size_t i = 0; i < n; ++i) p.velocity[i] += 0.5 * dt * p.acceleration[i];
+  body.prescribe(time_ + dt, p.velocity);
+
+  time_ = last ? end : time_ + dt;
+  dt_ = dt;
+  ++steps_;
+  if (first_dt_ == 0.0) first_dt_ = length.dt;
+  account(dt);
+  check();
+}
+
+template <int Dim>
+void Simulation<Dim>::run_until(double end, const std::function<void(const Simulation&)>& observe) {
+  while (time_ < end) {
+    step(end);
+    if (observe) observe(*this);
+  }
+}
+
+template <int Dim>
+void Simulation<Dim>::drift(double dt) {
+  Particles<Dim>& p = body.particles;
+  const std::size_t n = p.size();
+  if (body.scheme.xsph > 0.0) {
+    body.images.fill_velocities(p.velocity);
+    drift_.resize(n);
+    xsph_velocity<Dim>(body.stencil(), p, p.velocity, body.scheme.xsph, drift_);
+    for (std::size_t i = 0; i < n; ++i) p.position[i] += dt * drift_[i];
+  } else {
+    for (std::size_t i = 0; i < n; ++i) p.position[i] += dt * p.velocity[i];
+  }
+  body.refresh_neighbours();
+}
+
+template <int Dim>
+typename Simulation<Dim>::Powers Simulation<Dim>::powers() const {
+  const Particles<Dim>& p = body.particles;
+  Powers sum{0.0, 0.0, body.damping_power(), body.external_power()};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    sum.viscous += p.mass[i] * body.power()[i].viscous;
+    sum.artificial += p.mass[i] * body.power()[i].artificial;
+  }
+  return sum;
+}
+
+template <int Dim>
+double Simulation<Dim>::stored(std::size_t i) const {
+  return body.particles.mass[i] * std::visit([&](const auto& law) { return law.stored_energy(body.state(i)); }, body.material);
+}
+
+template <int Dim>
+void Simulation<Dim>::account(double dt) {
+  Particles<Dim>& p = body.particles;
+  const Powers before = powers_;
+  powers_ = powers();
+  energy_.viscous += 0.5 * dt * (before.viscous + powers_.viscous);
+  energy_.artificial += 0.5 * dt * (before.artificial + powers_.artificial);
+  energy_.damping += 0.5 * dt * (before.damping + powers_.damping);
+  energy_.external += 0.5 * dt * (before.external + powers_.external);
+
+  const bool heats = body.scheme.energy;
+  double internal = -initial_internal_;
+  energy_.kinetic = energy_.elastic = energy_.wall = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (heats) p.internal_energy[i] += dt * body.power()[i].viscous;
+    energy_.kinetic += 0.5 * p.mass[i] * p.velocity[i].squaredNorm();
+    energy_.elastic += stored(i);
+    internal += p.mass[i] * p.internal_energy[i];
+  }
+  for (const RigidWall<Dim>& wall : body.walls) energy_.wall += wall.energy(p, body.spacing);
+  deposited_ += heats ? dt * powers_.viscous : 0.0;
+  energy_.plastic = internal - deposited_ - energy_.elastic;
+  energy_scale_ = std::max({energy_scale_, energy_.kinetic + energy_.elastic, std::abs(energy_.external)});
+}
+
+template <int Dim>
+double Simulation<Dim>::energy_imbalance() const {
+  return energy_scale_ > 0.0 ? (energy_.total() - initial_energy_) / energy_scale_ : 0.0;
+}
+
+template <int Dim>
+Vector<Dim> Simulation<Dim>::momentum() const {
+  const Particles<Dim>& p = body.particles;
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.velocity[i];
+  return sum;
+}
+
+template <int Dim>
+double Simulation<Dim>::angular_momentum() const {
+  const Particles<Dim>& p = body.particles;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    sum += p.mass[i] * (p.position[i][0] * p.velocity[i][1] - p.position[i][1] * p.velocity[i][0]);
+  return sum;
+}
+
+template <int Dim>
+void Simulation<Dim>::check() const {
+  const Particles<Dim>& p = body.particles;
+  const auto stop = [&](std::size_t i, std::string_view field, std::string_view what) {
+    throw Divergence(fmt::format("t = {:.6g} s, step {}, body {}, particle {}: {} {}", time_, steps_, body.name, p.id[i], field, what));
+  };
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!p.acceleration[i].allFinite()) stop(i, "acceleration", "is not finite");
+    if (!p.velocity[i].allFinite()) stop(i, "velocity", "is not finite");
+    if (!p.stress[i].allFinite()) stop(i, "stress", "is not finite");
+    if (!(p.density[i] > 0.0)) stop(i, "density", fmt::format("is {:.6g} kg/m^3", p.density[i]));
+    if (!((p.position[i].array() >= watch.low.array()) && (p.position[i].array() <= watch.high.array())).all())
+      stop(i, "position", "has left the domain");
+  }
+  if (limiter_ != StepLimiter::end_of_run && !(dt_ >= watch.smallest_step * first_dt_))
+    throw Divergence(fmt::format("t = {:.6g} s, step {}: the step has collapsed to {:.3g} s, {:.1e} of the first, limited by {}", time_,
+                                 steps_, dt_, dt_ / first_dt_, name_of(limiter_)));
+  if (!(energy_imbalance() <= watch.largest_imbalance))
+    throw Divergence(fmt::format("t = {:.6g} s, step {}: energy has grown by {:.3g} J without work, {:.0f} % of the largest so far", time_,
+                                 steps_, energy_.total() - initial_energy_, 100.0 * energy_imbalance()));
+}
+
+template <int Dim>
+typename Simulation<Dim>::Clock Simulation<Dim>::clock() const {
+  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, deposited_,
+          steps_, limiter_, energy_, powers_};
+}
+
+template <int Dim>
+void Simulation<Dim>::resume(const Clock& clock) {
+  time_ = clock.time;
+  dt_ = clock.dt;
+  first_dt_ = clock.first_dt;
+  compression_ = clock.compression;
+  initial_energy_ = clock.initial_energy;
+  energy_scale_ = clock.energy_scale;
+  initial_internal_ = clock.initial_internal;
+  deposited_ = clock.deposited;
+  steps_ = clock.steps;
+  limiter_ = clock.limiter;
+  energy_ = clock.energy;
+  powers_ = clock.powers;
+  body.restore_neighbours();
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace furrow
