@@ -29,12 +29,18 @@ double sinc_slope(double x) {
   return std::abs(x) < 1e-2 ? x * (-1.0 / 3.0 + x * x / 30.0 - x * x * x * x / 840.0) : (std::cos(x) - sinc(x)) / x;
 }
 
+double power(double h, int n) {
+  double p = 1.0;
+  for (int k = 0; k < n; ++k) p *= h;
+  return p;
+}
+
 /// Polynomials of r = q/2 as polynomials of q.
-std::vector<double> of_half(std::vector<double> c) {
-  double factor = 1.0;
-  for (double& coefficient : c) {
+std::vector<long double> of_half(std::vector<long double> c) {
+  long double factor = 1.0L;
+  for (long double& coefficient : c) {
     coefficient *= factor;
-    factor *= 0.5;
+    factor *= 0.5L;
   }
   return c;
 }
@@ -52,7 +58,7 @@ double Kernel::radial_moment(int power) const {
     const long double to = piece.to;
     for (std::size_t n = 0; n < piece.coefficients.size(); ++n) {
       const int exponent = static_cast<int>(n) + power + 1;
-      sum += static_cast<long double>(piece.coefficients[n]) * (std::pow(to, exponent) - std::pow(from, exponent)) / exponent;
+      sum += piece.coefficients[n] * (std::pow(to, exponent) - std::pow(from, exponent)) / exponent;
     }
     from = to;
   }
@@ -63,9 +69,9 @@ double Kernel::value(double r, double h) const {
   const double q = r / h;
   for (const Piece& piece : pieces_) {
     if (q >= piece.to) continue;
-    double p = 0.0;
+    long double p = 0.0L;   // the terms cancel near the edge of the support
     for (auto c = piece.coefficients.rbegin(); c != piece.coefficients.rend(); ++c) p = p * q + *c;
-    return normalisation_ * p / std::pow(h, dimension_);
+    return normalisation_ * static_cast<double>(p) / power(h, dimension_);
   }
   return 0.0;
 }
@@ -74,9 +80,9 @@ double Kernel::derivative(double r, double h) const {
   const double q = r / h;
   for (const Piece& piece : pieces_) {
     if (q >= piece.to) continue;
-    double p = 0.0;
+    long double p = 0.0L;
     for (std::size_t n = piece.coefficients.size() - 1; n > 0; --n) p = p * q + static_cast<double>(n) * piece.coefficients[n];
-    return normalisation_ * p / std::pow(h, dimension_ + 1);
+    return normalisation_ * static_cast<double>(p) / power(h, dimension_ + 1);
   }
   return 0.0;
 }
@@ -87,7 +93,7 @@ double Kernel::second_moment() const {
 
 double Kernel::projection(double x) const {
   // A_n = integral of (x^2 + y^2)^(n/2) from y = 0 to Y, where R^2 = x^2 + Y^2: (n + 1) A_n = Y R^n + n x^2 A_(n-2).
-  const auto polynomial_up_to = [x](double R, const std::vector<double>& c) {
+  const auto polynomial_up_to = [x](double R, const std::vector<long double>& c) {
     if (x >= R) return 0.0;
     const double Y = std::sqrt((R - x) * (R + x));
     std::vector<double> A(c.size() + 1);
@@ -97,9 +103,9 @@ double Kernel::projection(double x) const {
       const double order = static_cast<double>(n);
       A[n] = (Y * std::pow(R, order) + order * x * x * A[n - 2]) / (order + 1.0);
     }
-    double sum = 0.0;
+    long double sum = 0.0L;
     for (std::size_t n = 0; n < c.size(); ++n) sum += c[n] * A[n];
-    return sum;
+    return static_cast<double>(sum);
   };
   double half = 0.0, from = 0.0;
   for (const Piece& piece : pieces_) {
@@ -110,6 +116,7 @@ double Kernel::projection(double x) const {
 }
 
 Kernel kernel(std::string_view name, int dimension) {
+  using Terms = std::vector<long double>;
   const bool line = dimension == 1;
   if (name == "cubic_spline") return {dimension, {{1.0, {1.0, 0.0, -1.5, 0.75}}, {2.0, {2.0, -3.0, 1.5, -0.25}}}};
   if (name == "quintic_spline") {
@@ -120,13 +127,13 @@ Kernel kernel(std::string_view name, int dimension) {
   }
   if (name == "wendland_c2") {
     return {dimension,
-            {{2.0, of_half(line ? std::vector{1.0, 0.0, -6.0, 8.0, -3.0}
-                                : std::vector{1.0, 0.0, -10.0, 20.0, -15.0, 4.0})}}};
+            {{2.0, of_half(line ? Terms{1.0L, 0.0L, -6.0L, 8.0L, -3.0L}
+                                : Terms{1.0L, 0.0L, -10.0L, 20.0L, -15.0L, 4.0L})}}};
   }
   if (name == "wendland_c4") {
     return {dimension,
-            {{2.0, of_half(line ? std::vector{1.0, 0.0, -7.0, 0.0, 35.0, -56.0, 35.0, -8.0}
-                                : std::vector{1.0, 0.0, -28.0 / 3.0, 0.0, 70.0, -448.0 / 3.0, 140.0, -64.0, 35.0 / 3.0})}}};
+            {{2.0, of_half(line ? Terms{1.0L, 0.0L, -7.0L, 0.0L, 35.0L, -56.0L, 35.0L, -8.0L}
+                                : Terms{1.0L, 0.0L, -28.0L / 3.0L, 0.0L, 70.0L, -448.0L / 3.0L, 140.0L, -64.0L, 35.0L / 3.0L})}}};
   }
   throw std::invalid_argument("no kernel is called \"" + std::string(name) + "\"");
 }
@@ -138,12 +145,12 @@ Moments moments(const Radial& W, double radius, int dimension) {
     if (dimension == 2) return integrate([&](double t) { return of_cosine(std::cos(t)); }, 0.0, 2.0 * pi, absolute);
     return 2.0 * pi * integrate(of_cosine, -1.0, 1.0, absolute);
   };
-  const auto moment = [&](int power) {
+  const auto moment = [&](int order) {
     const std::function<double(double)> along_ray = [&](double cosine) {
-      const auto shell = [&](double r) { return std::pow(r * cosine, power) * std::pow(r, dimension - 1) * W(r); };
+      const auto shell = [&](double r) { return power(r * cosine, order) * power(r, dimension - 1) * W(r); };
       return integrate(shell, 0.0, radius, 0.0);
     };
-    return over_directions(along_ray, 1e-14 * std::pow(radius, power));   // the first moment is zero: no relative error
+    return over_directions(along_ray, 1e-14 * power(radius, order));   // the first moment is zero: no relative error
   };
   unit_sphere(dimension);
   return {moment(0), moment(1), moment(2)};

@@ -15,8 +15,8 @@ namespace furrow::exact {
 class Kernel {
  public:
   struct Piece {
-    double to;                          ///< the piece reaches from the end of the one before to here
-    std::vector<double> coefficients;   ///< c0 + c1 q + c2 q^2 + ...
+    double to;                               ///< the piece reaches from the end of the one before to here
+    std::vector<long double> coefficients;   ///< c0 + c1 q + c2 q^2 + ...; thirds must not be rounded to double
   };
   Kernel(int dimension, std::vector<Piece> pieces);
 

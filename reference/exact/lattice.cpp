@@ -89,7 +89,7 @@ PairSums pair_sums(const std::vector<Point>& x, const std::vector<double>& volum
       Point to_j;
       for (std::size_t d = 0; d < 3; ++d) {
         to_j[d] = x[j][d] - x[i][d];
-        if (period[d] > 0.0) to_j[d] -= period[d] * std::round(to_j[d] / period[d]);
+        if (period[d] > 0.0) to_j[d] -= period[d] * std::nearbyint(to_j[d] / period[d]);
       }
       const double r = length(to_j);
       if (r >= radius) continue;

@@ -1,6 +1,7 @@
 #include "solver/schemes/kernel_correction.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 
 namespace furrow {
 
@@ -31,7 +32,8 @@ void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volu
       linear.add_outer(pair.x_ij, (-V_j) * pair.grad);
     });
     const Matrix<Dim> M = sum(linear);
-    out[i] = M.determinant() > 1e-4 ? Matrix<Dim>(M.inverse()) : Matrix<Dim>(Matrix<Dim>::Identity());
+    const double isotropic = std::pow(M.trace() / Dim, Dim);
+    out[i] = M.determinant() > 1e-4 * isotropic ? Matrix<Dim>(M.inverse()) : Matrix<Dim>(Matrix<Dim>::Identity());
   });
 }
 

@@ -8,8 +8,8 @@
 #include "reference/exact/kernels.hpp"
 #include "reference/exact/quadrature.hpp"
 #include "solver/smoothing/kernels.hpp"
+#include "verification/kernel/largest.hpp"
 #include "verification/kernel/problems.hpp"
-#include "verification/norms.hpp"
 
 namespace furrow::kernel_cases {
 namespace {
@@ -51,7 +51,7 @@ void measure_shape(Run& run, const Accused& solver, const exact::Kernel& truth, 
   const double W0 = truth.value(0.0, h), slope0 = W0 / h, to_value = std::pow(h, truth.dimension()), to_slope = to_value * h;
   Series W_solver{.label = "solver"}, W_truth{.label = "textbook polynomial", .role = "reference"};
   Series dW_solver = W_solver, dW_truth = W_truth;
-  Norms value_error, slope_error, integral_error, outside;
+  Largest value_error, slope_error, integral_error, outside;
   long not_positive = 0, not_falling = 0;
   double tail = 0.0;
   for (int i = samples - 1; i >= 0; --i) {   // inwards: the integral of the slope begins at the edge of the support
@@ -73,10 +73,10 @@ void measure_shape(Run& run, const Accused& solver, const exact::Kernel& truth, 
     outside.add(solver.W(r) / W0);
     outside.add(solver.dW(r) / slope0);
   }
-  run.measure("value", value_error.Linf());
-  run.measure("derivative", slope_error.Linf());
-  run.measure("derivative_integral", integral_error.Linf());
-  run.measure("outside_support", outside.Linf());
+  run.measure("value", value_error.magnitude);
+  run.measure("derivative", slope_error.magnitude);
+  run.measure("derivative_integral", integral_error.magnitude);
+  run.measure("outside_support", outside.magnitude);
   run.measure("not_positive", static_cast<double>(not_positive));
   run.measure("not_falling", static_cast<double>(not_falling));
 
