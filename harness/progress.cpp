@@ -37,14 +37,15 @@ std::string duration_words(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(std::map<std::string, double> expected, int jobs, bool quiet)
+Progress::Progress(std::map<std::string, std::optional<double>> expected, int jobs, bool quiet)
     : waiting_(std::move(expected)), total_(waiting_.size()), jobs_(std::max(1, jobs)), quiet_(quiet), terminal_(isatty(STDOUT_FILENO) == 1) {}
 
 Progress::~Progress() { clear(); }
 
 void Progress::started(const std::string& id) {
-  waiting_.erase(id);
-  running_[id] = {Clock::now(), {}};
+  const auto it = waiting_.find(id);
+  running_[id] = {Clock::now(), it == waiting_.end() ? std::nullopt : it->second, {}};
+  if (it != waiting_.end()) waiting_.erase(it);
 }
 
 void Progress::moved(const std::string& id, const CaseProgress& progress) {
@@ -54,6 +55,7 @@ void Progress::moved(const std::string& id, const CaseProgress& progress) {
 void Progress::finished(const std::string& id, const std::string& verdict, const std::string& reason, double seconds) {
   running_.erase(id);
   ++done_;
+  seconds_done_ += seconds;
   if (quiet_) return;
   clear();
   if (!terminal_ || verdict != "pass") {
@@ -64,12 +66,17 @@ void Progress::finished(const std::string& id, const std::string& verdict, const
   draw();
 }
 
-double Progress::time_left() const {
+std::optional<double> Progress::time_left() const {
+  // A case of which nothing is known is taken to last as long as those that are done did on average.
+  const double average = done_ > 0 ? seconds_done_ / static_cast<double>(done_) : 0.0;
   double left = 0.0, longest = 0.0;
-  for (const auto& [id, seconds] : waiting_) left += seconds;
+  for (const auto& [id, seconds] : waiting_) {
+    if (!seconds && done_ == 0) return std::nullopt;
+    left += seconds.value_or(average);
+  }
   for (const auto& [id, running] : running_) {
     const double done = fraction(running.progress), elapsed = seconds_between(running.start, Clock::now());
-    const double rest = done > 0.01 ? elapsed * (1.0 - done) / done : 0.0;
+    const double rest = done > 0.01 ? elapsed * (1.0 - done) / done : std::max(0.0, running.expected.value_or(average) - elapsed);
     left += rest;
     longest = std::max(longest, rest);
   }
@@ -90,7 +97,7 @@ std::string Progress::bar() const {
     if (p.end_time > 0.0) text += fmt::format("  t = {:.3g} of {:.3g} s", p.simulated_time, p.end_time);
     if (p.steps_per_second > 0.0) text += fmt::format("  {:.3g} steps/s", p.steps_per_second);
   }
-  if (const double left = time_left(); left > 0.5) text += "  " + duration_words(left) + " left";
+  if (const std::optional<double> left = time_left(); left && *left > 0.5) text += "  " + duration_words(*left) + " left";
   return text.substr(0, terminal_width() - 1);
 }
 

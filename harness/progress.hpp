@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "harness/case_run.hpp"
@@ -11,8 +12,8 @@ namespace furrow {
 
 class Progress {
  public:
-  /// `expected` holds the expected seconds of every case that will run.
-  Progress(std::map<std::string, double> expected, int jobs, bool quiet);
+  /// `expected` holds every case that will run, with its expected seconds where they are known.
+  Progress(std::map<std::string, std::optional<double>> expected, int jobs, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -26,16 +27,18 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   struct Running {
     Clock::time_point start;
+    std::optional<double> expected;   // s
     CaseProgress progress;
   };
 
-  double time_left() const;   // s
+  std::optional<double> time_left() const;   // s; empty as long as nothing is known
   std::string bar() const;
   void clear();
 
-  std::map<std::string, double> waiting_;
+  std::map<std::string, std::optional<double>> waiting_;
   std::map<std::string, Running> running_;
   std::size_t total_, done_ = 0;
+  double seconds_done_ = 0.0;
   int jobs_;
   bool quiet_, terminal_, drawn_ = false;
   Clock::time_point last_draw_;

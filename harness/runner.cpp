@@ -4,6 +4,7 @@
 #include <chrono>
 #include <deque>
 #include <fstream>
+#include <optional>
 
 #include <unistd.h>
 
@@ -62,11 +63,11 @@ bool may_be_kept(const Json& result, const CaseSpec& spec, const Json& provenanc
   return same("commit") && same("program") && made.value("inputs", "") == spec.fingerprint;
 }
 
-// What the last run says that each case takes; the time limit where it says nothing.
-double expected_seconds(const CaseSpec& spec) {
+// What the last run says that a case takes; empty where it says nothing.
+std::optional<double> expected_seconds(const CaseSpec& spec) {
   const Json earlier = read_json(project_root() / "runs/latest" / spec.id / "result.json");
-  if (!earlier.is_object() || !earlier.contains("cost") || earlier.value("verdict", "error") == "error") return spec.time_limit;
-  return earlier["cost"].value("wall_s", spec.time_limit);
+  if (!earlier.is_object() || !earlier.contains("cost") || earlier.value("verdict", "error") == "error") return std::nullopt;
+  return earlier["cost"]["wall_s"].get<double>();
 }
 
 std::string last_words(const fs::path& log) {
@@ -91,9 +92,11 @@ class Runner {
   int run() {
     catch_interrupts();
     const auto start = std::chrono::steady_clock::now();
+    std::map<std::string, std::optional<double>> expected;
+    for (const CaseSpec& spec : cases_) expected[spec.id] = expected_seconds(spec);
     write_run(false, 0.0, 0);
     link_latest(folder_);
-    run_all();
+    run_all(std::move(expected));
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
     std::vector<Json> results;
@@ -110,20 +113,20 @@ class Runner {
   }
 
  private:
-  void run_all() {
-    std::map<std::string, double> expected;
+  void run_all(std::map<std::string, std::optional<double>> expected) {
     std::deque<const CaseSpec*> waiting;
     for (const CaseSpec& spec : cases_) {
       const fs::path file = folder_ / spec.id / "result.json";
       if (options_.resume && may_be_kept(read_json(file), spec, provenance_)) {
         ++kept_;
+        expected.erase(spec.id);
         continue;
       }
       fs::remove_all(folder_ / spec.id);
-      expected[spec.id] = expected_seconds(spec);
       waiting.push_back(&spec);
     }
-    std::stable_sort(waiting.begin(), waiting.end(), [&](const CaseSpec* a, const CaseSpec* b) { return expected[a->id] > expected[b->id]; });
+    const auto at_most = [&](const CaseSpec* spec) { return expected[spec->id].value_or(spec->time_limit); };
+    std::stable_sort(waiting.begin(), waiting.end(), [&](const CaseSpec* a, const CaseSpec* b) { return at_most(a) > at_most(b); });
 
     Progress progress(expected, options_.jobs, options_.quiet);
     std::deque<RunningCase> running;
