@@ -5,6 +5,7 @@
 int main(int argc, char** argv) {
   const std::vector<furrow::Family> families = {
       furrow::kernel_family(),
+      furrow::operators_family(),
   };
   return furrow::command_line(families, argc, argv);
 }
