@@ -172,7 +172,7 @@ Problem plane_waves(const Parameters& input) {
     for (const char* module : {"velocity_gradient", "momentum", "density", "xsph"}) run.exercises(std::string("schemes/") + module);
 
     Table& table = run.table("wave_speed", "Speed of the discrete body's longitudinal wave over the true one", {{"h/dx"}});
-    Figure& figure = run.figure({.name = "dispersion", .title = "Numerical dispersion", .x = {"spacings per wave, dx/lambda"}, .y = {"c/c0"}});
+    Figure& figure = run.figure({.name = "dispersion", .title = "Numerical dispersion", .x = {"waves per spacing, dx/lambda"}, .y = {"c/c0"}});
     figure.caption = "Short waves are too slow; the lattice sum (lines) and what the solver's sums give (points).";
     Largest speed, shear, interpolated, smoothed, residual, shortest;
     with_arrangement(setup, kernel, *std::max_element(ratios.begin(), ratios.end()), [&](auto& a) {

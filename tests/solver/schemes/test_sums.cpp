@@ -66,16 +66,15 @@ void check_momentum(const Sums<Dim>& s, const CorrectionOf<Dim>& B, const Moment
   MomentumWorkspace<Dim> workspace;
   momentum<Dim>(s.stencil, p, p.velocity, B, terms, workspace, acceleration, power);
 
-  const auto R = [&](std::size_t i) -> Matrix<Dim> {
+  std::vector<Matrix<Dim>> R(p.size(), Matrix<Dim>::Zero());
+  for (std::size_t i = 0; terms.artificial_stress && i < p.size(); ++i) {
     const Eigen::SelfAdjointEigenSolver<Matrix<Dim>> principal(p.stress[i].template topLeftCorner<Dim, Dim>());
-    Matrix<Dim> sum = Matrix<Dim>::Zero();
     for (int k = 0; k < Dim; ++k) {
       const double tension = std::max(0.0, principal.eigenvalues()[k]);
-      sum -= terms.artificial_stress->eps * tension / (p.density[i] * p.density[i]) * principal.eigenvectors().col(k) *
-             principal.eigenvectors().col(k).transpose();
+      R[i] -= terms.artificial_stress->eps * tension / (p.density[i] * p.density[i]) * principal.eigenvectors().col(k) *
+              principal.eigenvectors().col(k).transpose();
     }
-    return sum;
-  };
+  }
   double worst = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     Vector<Dim> a = Vector<Dim>::Zero();
@@ -102,7 +101,7 @@ void check_momentum(const Sums<Dim>& s, const CorrectionOf<Dim>& B, const Moment
       }
       if (terms.artificial_stress) {
         const double f_n = std::pow(pair.W / s.kernel.value(terms.spacing, h), terms.artificial_stress->n);
-        const Vector<Dim> g = p.mass[j] * f_n * (R(i) + R(j)) * pair.grad;
+        const Vector<Dim> g = p.mass[j] * f_n * (R[i] + R[j]) * pair.grad;
         a += g;
         from_artificial -= 0.5 * g.dot(v_ij);
       }
