@@ -18,7 +18,9 @@ class Margin:
         if self.number is None:
             return None
         if low is not None and high is not None:
-            return (self.number - low) / (high - low) if high > low else (0.5 if self.inside else math.copysign(9.0, self.number - low))
+            if high > low:
+                return (self.number - low) / (high - low)
+            return 0.5 if self.inside else math.copysign(9.0, self.number - low)
         if self.use is None:
             return 0.5 if self.inside else (-0.2 if low is not None else 1.2)
         return self.use if low is None else 1.0 - self.use
@@ -27,8 +29,8 @@ class Margin:
 def margin(number, band):
     """Use of a band [low, high].
 
-    A band with zero inside or at an end is one of an error: the use is the error over the end on its side. Any other closed band is
-    one of a value: the use is the distance from its middle over its half-width. A half-open band measures against its one end.
+    A band with zero inside or at an end is one of an error: the use is the error over the end on its side. Any other closed band
+    is one of a value: the use is the distance from its middle over its half-width. A half-open band measures against its one end.
     """
     low, high = band
     if number is None or not math.isfinite(number):

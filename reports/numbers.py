@@ -10,7 +10,8 @@ SUPERSCRIPTS = str.maketrans("0123456789-+()abcdehijklmnoprstuvxyz", "⁰¹²³�
 SUBSCRIPTS = str.maketrans("0123456789-+()aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉₋₊₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 GREEK = {name: chr(code) for name, code in {
     "alpha": 0x3B1, "beta": 0x3B2, "gamma": 0x3B3, "delta": 0x3B4, "epsilon": 0x3B5, "zeta": 0x3B6, "eta": 0x3B7, "theta": 0x3B8,
-    "kappa": 0x3BA, "lambda": 0x3BB, "mu": 0x3BC, "nu": 0x3BD, "xi": 0x3BE, "pi": 0x3C0, "rho": 0x3C1, "sigma": 0x3C3, "tau": 0x3C4,
+    "kappa": 0x3BA, "lambda": 0x3BB, "mu": 0x3BC, "nu": 0x3BD, "xi": 0x3BE, "pi": 0x3C0, "rho": 0x3C1, "sigma": 0x3C3,
+    "tau": 0x3C4,
     "phi": 0x3C6, "chi": 0x3C7, "psi": 0x3C8, "omega": 0x3C9, "Gamma": 0x393, "Delta": 0x394, "Sigma": 0x3A3, "Omega": 0x3A9,
     "nabla": 0x2207, "grad": 0x2207, "sum": 0x2211, "int": 0x222B, "infinity": 0x221E, "inf": 0x221E}.items()}
 
@@ -102,10 +103,12 @@ def _greek(text, kept):
 
 def _signs(text, kept=frozenset()):
     """Greek letters, operators, primes and a real minus, where a formula names them in ASCII."""
-    text = re.sub(r"(?<![A-Za-z])dx(?![A-Za-z])", "Δx", _greek(text.replace("\\", ""), kept))
+    text = _greek(text.replace("\\", ""), kept)
+    if "∫" not in text:   # dx is the particle spacing, but neither under an integral nor in a derivative
+        text = re.sub(r"(?<!d[A-Za-z]/)(?<!d/)(?<![A-Za-z])dx(?![A-Za-z])", "Δx", text)
     text = re.sub(r"(?<=[ (|,])-(?=[ \w(|])|^-(?=\w)", MINUS, text)
     text = re.sub(r"(?<=\w)\'+", lambda m: "′" * len(m.group()), text)
-    return re.sub(r"<([^<>]+)>", "⟨\\1⟩", text.replace("<=", "≤").replace(">=", "≥")).replace(" * ", " · ")
+    return re.sub(r"<([A-Za-z](?:[_^]\w+)?)>", "⟨\\1⟩", text.replace("<=", "≤").replace(">=", "≥")).replace(" * ", " · ")
 
 
 def symbol(text):
@@ -123,22 +126,24 @@ def symbol(text):
 
 def _upright(text):
     """Names of functions and words (max, sinc, at) stand upright among italic letters."""
-    pieces = re.split(r"(\b(?:[a-z]{3,}|at|of|in)\b)", text)
+    pieces = re.split(r"(\b(?:[a-z]{3,}|at|by|in|of|on|to)\b)", text)
     return Markup("").join(Markup("<b>{}</b>").format(piece) if i % 2 else escape(piece) for i, piece in enumerate(pieces))
 
 
 def norm(text):
     """Linf relative -> L∞ relative."""
-    return text.replace("Linf", "L∞").replace("L2", "L₂").replace("L1", "L₁")
+    return re.sub(r"\bL(inf|1|2)\b", lambda m: {"inf": "L∞", "1": "L₁", "2": "L₂"}[m.group(1)], text)
 
 
 def label(text):
-    """A label that may hold a formula, as plain text for figures and table heads: h^2 -> h², h/dx -> h/Δx, c_0 -> c₀, rho -> ρ."""
+    """Plain text that may hold formulas, for figures and prose: h^2 -> h², h/dx -> h/Δx, c_0 -> c₀, sum V W -> ∑ V W."""
     def raised(match):
         table = SUPERSCRIPTS if match.group(1) == "^" else SUBSCRIPTS
         inner = match.group(2).strip("{}")
         return inner.translate(table) if all(ord(c) in table for c in inner) else match.group(1) + inner
-    return re.sub(r"(?<=\S)([_^])(\{[^}]*\}|\([^()]*\)|[+-]?[^\W_]+)", raised, _signs(text, PROSE))
+    text = re.sub(r"\b(sum|int|grad)(?= [A-Za-z]\b)", lambda m: GREEK[m.group()], text)   # before a letter: no word of prose
+    text = re.sub(r"(?<=\S)(\^)(\{[^}]*\}|\([^()]*\)|[+-]?[^\W_]+)", raised, _signs(norm(text), PROSE))
+    return re.sub(r"(?<=\b[^\W_])(_)(\{[^}]*\}|[^\W_]{1,3}\b)", raised, text)
 
 
 def duration(seconds):

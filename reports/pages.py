@@ -1,7 +1,6 @@
 """Pages: one index, one page a case, written beside the old report and put in its place in one step."""
 
 import ctypes
-import datetime
 import errno
 import multiprocessing
 import os
@@ -11,9 +10,8 @@ from pathlib import Path
 from urllib.parse import quote
 
 import jinja2
-from markupsafe import Markup
 
-from reports import numbers, results, summary
+from reports import numbers, results, summary, view
 from reports.figures import history, ladder, lines, particles, snapshot
 
 HERE = Path(__file__).resolve().parent
@@ -68,7 +66,7 @@ def _sweep(root):
 
 
 def _replace(new, target):
-    """Puts folder `new` in the place of `target` in one step: the two are exchanged, and the old one is left under the name `new`."""
+    """Puts folder `new` in the place of `target` in one step: the two are exchanged, and the old one is left as `new`."""
     if not target.exists():
         os.rename(new, target)
         return
@@ -126,8 +124,10 @@ def figures_of(case, provenance):
         if steps:
             shown += steps
             said = "; ".join(ladder.name(s) for s in steps)
-            convergence[metric["name"]] = Figure(file(f"ladder-{metric['name']}"), f"Convergence of {metric['name'].replace('_', ' ')}", "",
-                                                 f"Convergence of {metric['name']} over particle spacing. {said}.", ladder.draw, (metric, mark))
+            name = metric["name"].replace("_", " ")
+            convergence[metric["name"]] = Figure(
+                file(f"ladder-{metric['name']}"), f"Convergence of {name}", "",
+                f"Convergence of {name} over particle spacing. {said}.", ladder.draw, (metric, mark))
     own = []
     for data in case.data.get("figures", []):
         what = ", ".join(f"{s['label']} ({s['role']})" for s in data["series"])
@@ -148,11 +148,13 @@ def figures_of(case, provenance):
             series.append(broken)
     pictures = []
     found = files.get("snapshots", [])
-    for name, word in ((found[-1], "Last" if len(found) > 1 else "The"), *([(found[0], "First")] if len(found) > 1 else [])) if found else ():
+    for name, word in ((found[-1], "Last" if len(found) > 1 else "The"),
+                       *([(found[0], "First")] if len(found) > 1 else [])) if found else ():
         moment = snapshot.time(case.folder / name)
         factor, unit = numbers.prefixed(moment or 1.0, "s")
         at = f", t = {numbers.quantity(factor * moment, unit)}" if moment is not None else ""
-        pictures.append(Figure(file(f"snapshot-{name}"), f"{word} snapshot{at}", name, f"Particles of snapshot {name}{at}.", snapshot.draw,
+        pictures.append(Figure(file(f"snapshot-{name}"), f"{word} snapshot{at}", name, f"Particles of snapshot {name}{at}.",
+                               snapshot.draw,
                                (case.folder / name, mark)))
     return convergence, series, pictures, own
 
@@ -161,7 +163,7 @@ def _draw(task):
     draw, arguments, path = task
     try:
         text = draw(*arguments)
-    except (OSError, KeyError, ValueError, TypeError, OverflowError) as error:   # bad data spoils its own figure, and the page says so
+    except (OSError, KeyError, ValueError, TypeError, OverflowError) as error:   # bad data spoils its own figure alone
         return f"{type(error).__name__}: {error}"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -191,12 +193,14 @@ def _write(run, work, jobs):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=_Absent)
     environment.filters.update(number=numbers.number, unit=numbers.unit, symbol=numbers.symbol, norm=numbers.norm,
-                               size=numbers.size, percent=numbers.percent, path=lambda p: quote(p), words=lambda t: t.replace("_", " "))
-    environment.globals.update(words=WORDS, class_words=CLASS_WORDS, verdicts=results.VERDICTS, classes=results.CLASSES,
-                               states=numbers.STATES, with_uncertainty=numbers.with_uncertainty, band_words=band_words,
-                               error_words=error_words, bar=bar, order=numbers.order, quantity=numbers.quantity, ladders_of=ladder.ladders_of,
-                               with_unit=numbers.with_unit, duration=numbers.duration, flatten=flatten, expiry=expiry, when=when, spacing_words=spacing_words, common_rung=common_rung,
-                               is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
+                               prose=numbers.label, size=numbers.size, percent=numbers.percent, path=lambda p: quote(p),
+                               words=lambda t: t.replace("_", " "))
+    environment.globals.update(
+        words=WORDS, class_words=CLASS_WORDS, verdicts=results.VERDICTS, classes=results.CLASSES, states=numbers.STATES,
+        with_uncertainty=numbers.with_uncertainty, order=numbers.order, quantity=numbers.quantity, with_unit=numbers.with_unit,
+        duration=numbers.duration, ladders_of=ladder.ladders_of, band_words=view.band_words, error_words=view.error_words,
+        bar=view.bar, flatten=view.flatten, expiry=view.expiry, when=view.when, spacing_words=view.spacing_words,
+        common_rung=view.common_rung, is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run)}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
     page = environment.get_template("case.html")
@@ -210,112 +214,3 @@ def _write(run, work, jobs):
             root="../" * case.page.count("/"), case=case, convergence=convergence, series=series, lead=lead,
             others=[f for f in (*pictures, *own) if f is not lead], previous=run.cases[i - 1] if i else None,
             following=run.cases[i + 1] if i + 1 < len(run.cases) else None, position=i + 1, **common), encoding="utf-8")
-
-
-def _in_percent(metric):
-    """Relative errors whose band is wide enough to be read in percent."""
-    ends = [abs(e) for e in metric["band"] or [] if e]
-    return "relative" in metric["norm"] and bool(ends) and max(ends) >= 1e-3
-
-
-def _band_unit(metric):
-    return "1" if "relative" in metric["norm"] else metric["unit"]
-
-
-def error_words(metric):
-    if metric["error"] is None or metric["norm"].split()[-1:] == ["value"] and "relative" not in metric["norm"]:
-        return "–"   # the band is on the value itself
-    if _in_percent(metric):
-        return f"{numbers.number(100.0 * metric['error'], 3)}\u202f%"
-    return numbers.quantity(metric["error"], _band_unit(metric))
-
-
-def band_words(metric):
-    if _in_percent(metric):
-        return numbers.band(metric["band"], "%", 100.0)
-    return numbers.band(metric["band"], _band_unit(metric))
-
-
-def bar(margin, verdict):
-    """Small graphic: the band as a track between its ends, a mark where the number lies, outside it where it is outside."""
-    if margin is None or margin.band == (None, None):
-        return Markup("")
-    low, high = margin.band
-    left, right, middle = (18.0, 102.0, 8.0) if low != high else (60.0, 60.0, 8.0)
-    parts = [f'<rect class="track" x="{left if low is not None else 2:g}" y="{middle - 3:g}" '
-             f'width="{(right if high is not None else 118) - (left if low is not None else 2):g}" height="6" rx="3"/>']
-    for end, x in ((low, left), (high, right)):
-        if end is not None:
-            parts.append(f'<line class="end" x1="{x:g}" x2="{x:g}" y1="1.5" y2="14.5"/>')
-    place = margin.place
-    if place is None:
-        parts.append('<text class="none" x="60" y="11.6" text-anchor="middle">no number</text>')
-        said = "no number"
-    else:
-        x = min(115.0, max(5.0, left + place * (right - left))) if low != high else 60.0 if margin.inside else (5.0 if place < 0.0 else 115.0)
-        out = "" if margin.inside else " out"
-        shape = f'<circle class="mark" cx="{x:.1f}" cy="{middle:g}" r="4"/>' if margin.inside else \
-            f'<path class="mark" d="M{x - 4:.1f} {middle - 4:g}l8 8m0 -8l-8 8"/>'
-        parts.append(f'<g class="at{out}">{shape}</g>')
-        said = f"{'inside' if margin.inside else 'outside'} its band" + \
-            (f", {numbers.percent(margin.use)} of it used" if margin.use is not None else "")
-    return Markup(f'<svg class="bar" viewBox="0 0 120 16" role="img" aria-label="{said}"><title>{said}</title>{"".join(parts)}</svg>')
-
-
-def flatten(parameters, prefix=""):
-    """Parameters as rows (key, text): numbers with units in one cell, tables under dotted keys."""
-    for key, value in parameters.items():
-        name = f"{prefix}{key}"
-        if isinstance(value, dict) and set(value) == {"value", "unit"}:
-            yield name, _plain(value["value"], value["unit"])
-        elif isinstance(value, dict):
-            yield from flatten(value, name + ".")
-        elif isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
-            for i, item in enumerate(value):
-                yield from flatten(item, f"{name}[{i}].")
-        else:
-            yield name, _plain(value)
-
-
-def _plain(value, unit="1"):
-    shown = ", ".join(_plain(v) for v in value) if isinstance(value, list) else \
-        numbers.number(value, 8) if isinstance(value, (int, float)) else str(value)
-    tail = numbers.unit(unit)
-    return f"{shown}\u202f{tail}" if tail else shown
-
-
-def spacing_words(metric):
-    """'at Δx = 1 mm, h/Δx = 1.2' for a metric of one resolution."""
-    at = metric.get("at", {})
-    parts = []
-    if at.get("spacing"):
-        factor, unit = numbers.prefixed(at["spacing"], "m")
-        parts.append(f"Δx = {numbers.quantity(factor * at['spacing'], unit)}")
-    if at.get("h_over_dx"):
-        parts.append(f"h/Δx = {numbers.number(at['h_over_dx'])}")
-    return "at " + ", ".join(parts) if parts else ""
-
-
-def common_rung(case):
-    """The words of spacing_words where they are the same for every metric of the case, so that they are said once; else ''."""
-    found = {spacing_words(m) for m, _ in case.metrics}
-    return found.pop() if len(found) == 1 else ""
-
-
-def expiry(case, run):
-    """(date, whether the run was later) of a known gap that states 'expires 2026-12-31' or 'until 2026-12-31' in its reason."""
-    match = re.search(r"\b(?:expir\w*|until|expiry:?)\s+(?:on\s+)?(\d{4}-\d{2}-\d{2})", case.reason)
-    if not match:
-        return None, False
-    started = str(run.provenance.get("started", ""))[:10]
-    return match.group(1), bool(started) and started > match.group(1)
-
-
-def when(text):
-    """An ISO time as '31 January 2026, 14:05'; anything else as it is."""
-    try:
-        moment = datetime.datetime.fromisoformat(str(text).replace("Z", "+00:00"))
-    except ValueError:
-        return str(text)
-    zone = " UTC" if moment.utcoffset() == datetime.timedelta(0) else ""
-    return f"{moment.day} {moment:%B %Y, %H:%M}{zone}"

@@ -124,8 +124,9 @@ def _validator():
     number = (int, float, type(None))
 
     def items(validator, items_schema, instance, parent):
-        if isinstance(instance, list) and items_schema == {"$ref": "#/$defs/number_or_null"} and all(type(x) in number for x in instance):
-            return
+        if isinstance(instance, list) and items_schema == {"$ref": "#/$defs/number_or_null"}:
+            if all(type(x) in number for x in instance):
+                return
         yield from plain.VALIDATORS["items"](validator, items_schema, instance, parent)
 
     return jsonschema.validators.extend(plain, {"items": items})(schema)

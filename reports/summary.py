@@ -64,8 +64,7 @@ def summarise(run):
         families=[(f, count((c.verdict for c in cases if c.family == f), VERDICTS)) for f in names],
         metrics=count((m["verdict"] for _, m, _ in metrics), (*VERDICTS, "skipped", "reported")),
         green=count((m["class"] for c, m, _ in metrics if m["verdict"] == "pass"), CLASSES),
-        worst=ranked[:SHOWN_WORST],
-        without_number=sum(1 for t in gated if t[2] is None or t[2].number is None),
+        worst=ranked[:SHOWN_WORST], without_number=sum(1 for t in gated if t[2] is None or t[2].number is None),
         cost={
             "wall_s": wall if isinstance(wall, (int, float)) else None,
             "cases_wall_s": sum(c["wall_s"] for c in costs), "cpu_s": sum(c["cpu_s"] for c in costs),

@@ -10,7 +10,7 @@ MOST_CURVES = 6   # in one figure
 
 
 def groups(path):
-    """[(unit, [names])] of the series in a history file, at most MOST_CURVES together. OSError or KeyError where it is not one."""
+    """[(unit, [names])] of the series in a history file, at most MOST_CURVES together. OSError or KeyError for another file."""
     found = {}
     with h5py.File(path, "r") as file:
         length = len(file["time"])

@@ -45,7 +45,8 @@ def draw(metric, stamp):
         axes.axhline(reference, label="reference", **{k: v for k, v in style.look("reference", 0, 1).items() if k != "marker"})
 
     if is_error and not points:
-        style.empty(axes, "every error is exactly zero" if all(v == 0.0 for l in ladders for v in l["value"]) else "no finite number")
+        zero = all(v == 0.0 for l in ladders for v in l["value"])
+        style.empty(axes, "every error is exactly zero" if zero else "no finite number")
     else:
         axes.set_xscale("log")
         shown = sorted({factor * dx for dx in spacings})
@@ -96,8 +97,8 @@ def _slope(axes, points, ladders):
     y_a = min(below) / 2.5 / (b / a) ** slope
     y_b = y_a * (b / a) ** slope
     axes.fill([a, b, b], [y_a, y_a, y_b], facecolor=style.GRID, edgecolor=style.MUTED, linewidth=0.9, zorder=1)
-    axes.annotate(str(slope), xy=(b, math.sqrt(y_a * y_b)), xytext=(4, 0), textcoords="offset points", color=style.MUTED, fontsize=11,
-                  va="center")
+    axes.annotate(str(slope), xy=(b, math.sqrt(y_a * y_b)), xytext=(4, 0), textcoords="offset points", color=style.MUTED,
+                  fontsize=11, va="center")
     axes.annotate("1", xy=(math.sqrt(a * b), y_a), xytext=(0, -3), textcoords="offset points", color=style.MUTED, fontsize=11,
                   ha="center", va="top")
     low, high = axes.get_ylim()

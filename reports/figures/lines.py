@@ -37,8 +37,8 @@ def draw(data, stamp):
         bars = style.finite(s.get("uncertainty") or [])
         if bars and any(b > 0.0 for b in bars):
             look.pop("markevery", None)
-            axes.errorbar(x, y, yerr=bars, capsize=2.5, elinewidth=1.0, capthick=1.0, ecolor=look["color"], label=label(s["label"]),
-                          **{k: v for k, v in look.items()})
+            axes.errorbar(x, y, yerr=bars, capsize=2.5, elinewidth=1.0, capthick=1.0, ecolor=look["color"],
+                          label=label(s["label"]), **{k: v for k, v in look.items()})
         else:
             axes.plot(x, y, label=label(s["label"]), **look)
 

@@ -6,7 +6,8 @@ import numpy as np
 from reports.figures import particles
 from reports.numbers import prefixed, with_unit
 
-TELLING = ("plastic_strain", "accumulated_plastic_strain", "equivalent_plastic_strain", "von_mises", "mises_stress", "velocity", "speed",
+TELLING = ("plastic_strain", "accumulated_plastic_strain", "equivalent_plastic_strain", "von_mises", "mises_stress", "velocity",
+           "speed",
            "stress", "pressure", "damage", "temperature", "density")   # in the order in which they are preferred
 
 
@@ -31,7 +32,8 @@ def draw(path, stamp):
         scale, unit = prefixed(float(np.nanmax(np.abs(values), initial=0.0)), unit)
         values = scale * values
     names = tuple(with_unit("xyz"[i], length) for i in (across, up))
-    return particles.cloud(factor * points[order, across], factor * points[order, up], values, names, with_unit(label, unit), [], stamp,
+    return particles.cloud(factor * points[order, across], factor * points[order, up], values, names, with_unit(label, unit), [],
+                           stamp,
                            f"Particles of {path.name}")
 
 

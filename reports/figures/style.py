@@ -13,7 +13,7 @@ matplotlib.use("svg")
 import matplotlib.figure  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
-from reports.numbers import MINUS, SUPERSCRIPTS, number, with_unit  # noqa: E402
+from reports.numbers import SUPERSCRIPTS, number, with_unit  # noqa: E402
 
 FONTS = "'Helvetica Neue', Helvetica, 'Segoe UI', Roboto, 'Noto Sans', 'Nimbus Sans', Arial, sans-serif"
 WIDTH = 460.0   # of every figure, in CSS pixels; heights follow from the content
@@ -36,15 +36,14 @@ COLOURS = {
 INK, MUTED, GRID, PAPER = "#010101", "#020202", "#030303", "#040404"
 CYCLE = [c for c in COLOURS if c.startswith("#0505")]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "h"]
-DASHES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)), (0, (8, 2)), (0, (3, 1.5)), (0, (1, 2.5)), (0, (5, 1.5, 1, 1.5, 1, 1.5))]
+DASHES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)), (0, (8, 2)), (0, (3, 1.5)), (0, (1, 2.5)),
+          (0, (5, 1.5, 1, 1.5, 1, 1.5))]
 REFERENCE_DASHES = [(0, (5, 2.5)), (0, (1.5, 2)), (0, (7, 2, 1.5, 2)), (0, (10, 3))]
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "furrow", "font.family": "DejaVu Sans", "font.size": 11.5,
     "mathtext.default": "regular", "path.simplify": True, "path.simplify_threshold": 0.2, "axes.unicode_minus": True,
 })
-
-ROLE_WORDS = {"computed": "computed", "reference": "reference", "experiment": "experiment", "published": "published", "bound": "bound"}
 
 
 def look(role, index, count):
@@ -56,7 +55,8 @@ def look(role, index, count):
     if role == "reference":
         return dict(color=INK, linestyle=REFERENCE_DASHES[index % len(REFERENCE_DASHES)], marker="None", linewidth=1.25, zorder=4)
     if role == "experiment":
-        return dict(color=INK, linestyle="None", marker=MARKERS[index % len(MARKERS)], fillstyle="none", markeredgewidth=1.3, zorder=5)
+        return dict(color=INK, linestyle="None", marker=MARKERS[index % len(MARKERS)], fillstyle="none", markeredgewidth=1.3,
+                    zorder=5)
     if role == "published":
         return dict(color=CYCLE[3 + index % 2 * 4], linestyle=(0, (3, 2)), marker=MARKERS[(index + 3) % len(MARKERS)],
                     fillstyle="none", linewidth=1.2, zorder=4)
@@ -68,7 +68,8 @@ def canvas(plot_height=225.0, legend_rows=0, left=62.0, right=16.0, top=30.0, bo
     legend = 15.0 * legend_rows + (4.0 if legend_rows else 0.0)
     height = top + plot_height + bottom + legend + 17.0
     figure = matplotlib.figure.Figure(figsize=(WIDTH / 72.0, height / 72.0), dpi=72)
-    axes = figure.add_axes([left / WIDTH, (bottom + legend + 17.0) / height, (WIDTH - left - right) / WIDTH, plot_height / height])
+    axes = figure.add_axes([left / WIDTH, (bottom + legend + 17.0) / height, (WIDTH - left - right) / WIDTH,
+                            plot_height / height])
     dress(axes)
     return figure, axes
 
@@ -80,8 +81,7 @@ def dress(axes):
     for side in ("left", "bottom"):
         axes.spines[side].set_color(MUTED)
         axes.spines[side].set_linewidth(0.8)
-    axes.tick_params(which="both", colors=MUTED, labelcolor=MUTED, labelsize=11, length=3.5, width=0.8)
-    axes.tick_params(which="minor", length=2, width=0.6)
+    axes.tick_params(colors=MUTED, labelcolor=MUTED, labelsize=11, length=3.5, width=0.8)
     axes.grid(True, color=GRID, linewidth=0.8)
     axes.set_axisbelow(True)
 
@@ -100,7 +100,8 @@ def _decade(value, _=None):
     if abs(exponent - round(exponent)) > 1e-6:
         return ""
     exponent = round(exponent)
-    return {-2: "0.01", -1: "0.1", 0: "1", 1: "10", 2: "100", 3: "1000"}.get(exponent, "10" + str(exponent).translate(SUPERSCRIPTS))
+    plain = {-2: "0.01", -1: "0.1", 0: "1", 1: "10", 2: "100", 3: "1000"}
+    return plain.get(exponent, "10" + str(exponent).translate(SUPERSCRIPTS))
 
 
 def log_axis(axis, low, high):
@@ -109,20 +110,13 @@ def log_axis(axis, low, high):
     if decades < 0.5:
         axis.set_major_locator(matplotlib.ticker.MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
         axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: number(v, 3)))
-        axis.set_minor_locator(matplotlib.ticker.NullLocator())
-        return
-    if decades < 2.0:
+    elif decades < 2.0:
         axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: number(v, 2)))
-        axis.set_minor_locator(matplotlib.ticker.LogLocator(subs=range(1, 10), numticks=50))
-        axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-        return
-    step = max(1, math.ceil(decades / 7.0))
-    axis.set_major_locator(matplotlib.ticker.LogLocator(base=10.0**step, numticks=20))
-    axis.set_major_formatter(matplotlib.ticker.FuncFormatter(_decade))
-    axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-    if step > 1:
-        axis.set_minor_locator(matplotlib.ticker.NullLocator())
+    else:
+        axis.set_major_locator(matplotlib.ticker.LogLocator(base=10.0 ** max(1, math.ceil(decades / 7.0)), numticks=20))
+        axis.set_major_formatter(matplotlib.ticker.FuncFormatter(_decade))
+    axis.set_minor_locator(matplotlib.ticker.NullLocator())   # minor ticks are half the time of a drawing
 
 
 def linear_axis(axis, low=0.0, high=1.0):
@@ -130,7 +124,9 @@ def linear_axis(axis, low=0.0, high=1.0):
     axis.set_major_locator(matplotlib.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]))
     span = high - low
     largest = max(abs(low), abs(high))
-    digits = 2 + max(2, math.ceil(math.log10(largest / span))) if span > 0.0 and largest > 0.0 else 4   # so that no two ticks read the same
+    digits = 4
+    if span > 0.0 and largest > 0.0:
+        digits = 2 + max(2, math.ceil(math.log10(largest / span)))   # so that no two ticks read the same
     if digits > 5:
         axis.set_major_formatter(matplotlib.ticker.ScalarFormatter(useOffset=True))
         axis.get_offset_text().set(x=1.0, ha="right", color=MUTED)   # away from the label of the axis
@@ -152,7 +148,8 @@ def legend(figure, axes, columns=2, order=None):
         names = [name for name in order if name in found]
         handles = [found[name] for name in names]
     height = figure.get_figheight() * 72.0
-    drawn = figure.legend(handles, names, loc="lower left", bbox_to_anchor=(8.0 / WIDTH, 14.0 / height), ncol=columns, frameon=False,
+    drawn = figure.legend(handles, names, loc="lower left", bbox_to_anchor=(8.0 / WIDTH, 14.0 / height), ncol=columns,
+                          frameon=False,
                           fontsize=11, handlelength=2.2, columnspacing=1.4, labelspacing=0.35, borderpad=0.2, handletextpad=0.6)
     for text in drawn.get_texts():
         text.set_color(INK)

@@ -15,7 +15,8 @@ def built(tmp_path_factory):
     """A run with one case of every kind and two broken files: (folder of the run, results by case id, folder of its report)."""
     folder = tmp_path_factory.mktemp("run")
     cases = sample.write(folder)
-    for name, text in (("kernel/cut-off", '{"schema": 1, "case": "kernel/cut-o'), ("kernel/wrong-schema", '{"schema": 1, "title": "Half a result"}')):
+    for name, text in (("kernel/cut-off", '{"schema": 1, "case": "kernel/cut-o'),
+                       ("kernel/wrong-schema", '{"schema": 1, "title": "Half a result"}')):
         (folder / name).mkdir(parents=True)
         (folder / name / "result.json").write_text(text)
     return folder, cases, build(folder).parent

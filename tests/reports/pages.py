@@ -30,7 +30,7 @@ class Page(HTMLParser):
             self.open.pop()
 
     def handle_endtag(self, tag):
-        assert self.open and self.open[-1] == tag, f"</{tag}> closes <{self.open[-1] if self.open else 'nothing'}> at {self.getpos()}"
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes <{(self.open or ['nothing'])[-1]}> at {self.getpos()}"
         self.open.pop()
 
     def handle_data(self, data):

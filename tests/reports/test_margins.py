@@ -26,6 +26,7 @@ def test_what_is_not_finite_is_never_inside(number):
     assert (found.number, found.use, found.inside, found.place) == (None, None, False, None)
 
 
-@pytest.mark.parametrize("number, band, place", [(1.7, (1.7, 2.3), 0.0), (2.3, (1.7, 2.3), 1.0), (2.9, (1.7, 2.3), 2.0), (0.0, (0.0, 1.0), 0.0)])
+@pytest.mark.parametrize("number, band, place", [(1.7, (1.7, 2.3), 0.0), (2.3, (1.7, 2.3), 1.0), (2.9, (1.7, 2.3), 2.0),
+                                                 (0.0, (0.0, 1.0), 0.0)])
 def test_place(number, band, place):
     assert margin(number, band).place == pytest.approx(place)

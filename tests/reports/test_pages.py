@@ -83,7 +83,8 @@ def test_nothing_is_asked_from_the_network(built):
         if path.suffix in (".css", ".js", ".svg"):
             text = re.sub(r'xmlns(:\w+)?="[^"]*"', "", path.read_text(encoding="utf-8"))
             text = re.sub(r"<metadata>.*?</metadata>|data:image/png;base64,[\w+/=\s]+", "", text, flags=re.DOTALL)
-            assert not re.search(r"https?:|//\w|@import|fetch\(|XMLHttpRequest", re.sub(r"^\s*//.*$", "", text, flags=re.MULTILINE)), path
+            assert not re.search(r"https?:|//\w|@import|fetch\(|XMLHttpRequest",
+                                 re.sub(r"^\s*//.*$", "", text, flags=re.MULTILINE)), path
     for path, page in every_page(report).items():
         for tag, key, link in page.links:
             assert not re.match(r"(\w+:)?//", link) or (tag == "a" and link.startswith("https://doi.org/")), f"{path}: {link}"
@@ -97,7 +98,8 @@ def test_figures_are_well_formed_stamped_and_the_same_every_time(built, tmp_path
         text = figure.read_text(encoding="utf-8")
         assert ElementTree.fromstring(text).tag.endswith("svg")
         assert "furrow 4f1c2d9ab0-dirty · 2026-01-31" in text
-        assert not re.search(r"#0[0-9]0[0-9]0[0-9]\b", re.sub(r"<style>.*?</style>", "", text)), f"{figure}: a colour that no theme knows"
+        assert not re.search(r"#0[0-9]0[0-9]0[0-9]\b", re.sub(r"<style>.*?</style>", "",
+                                                              text)), f"{figure}: a colour that no theme knows"
     again = tmp_path / "again"
     sample.write(again)
     second = build(again, jobs=1).parent
@@ -152,8 +154,10 @@ def test_a_self_green_is_never_called_verification(built):
 def test_a_case_page_tells_what_it_must(built):
     _, _, report = built
     page = page_of(report, "taylor-bar/copper-190")
-    for words in ("A bar hits a rigid wall.", "16.21 ± 0.10", "0.56\u202f%", "± 3\u202f%", "speed=190 m/s", "Johnson, G. R. & Cook, W. H.", "doi:10.1000/example",
-                  "experiment", "no probe at this resolution", "GNU 12.2.0", "Last snapshot, t = 80\u202fµs", "First snapshot, t = 0\u202f", "History of length"):
+    for words in ("A bar hits a rigid wall.", "16.21 ± 0.10", "0.56\u202f%", "± 3\u202f%", "speed=190 m/s",
+                  "Johnson, G. R. & Cook, W. H.", "doi:10.1000/example",
+                  "experiment", "no probe at this resolution", "GNU 12.2.0", "Last snapshot, t = 80\u202fµs",
+                  "First snapshot, t = 0\u202f", "History of length"):
         assert words.replace("\u202f", " ") in page.text.replace("\u202f", " "), words
     sources = [a["src"] for a in page.all("img")]
     assert "snapshot-last" in sources[0]
@@ -169,7 +173,8 @@ def test_an_order_carries_its_ladder_and_is_drawn_once(run):
 
 def test_a_resolution_that_all_metrics_share_is_said_once(run):
     at = {"spacing": 0.001, "h_over_dx": 1.2}
-    page = page_of(build(run(result("kernel/a", metrics=[metric("e", 0.1, [0, 1], at=at), metric("f", 0.1, [0, 1], at=at)]))).parent, "kernel/a")
+    page = page_of(build(run(result("kernel/a", metrics=[metric("e", 0.1, [0, 1], at=at),
+                                                         metric("f", 0.1, [0, 1], at=at)]))).parent, "kernel/a")
     assert page.text.count("at Δx") == 1
 
 
@@ -231,14 +236,19 @@ def test_missing_files_are_said_on_the_page(run):
 
 def test_odd_figures_do_not_spoil_a_report(run):
     def figure(name, x, y, kind="lines", log=False, **more):
-        return {"name": name, "title": name, "kind": kind, "x": {"label": "x", "unit": "1", "log": log}, "y": {"label": "y", "unit": "1", "log": log},
+        return {"name": name, "title": name, "kind": kind, "x": {"label": "x", "unit": "1", "log": log},
+                "y": {"label": "y", "unit": "1", "log": log},
                 "series": [{"label": "s", "role": "computed", "x": x, "y": y, **more}]}
     data = result("kernel/a", figures=[
-        figure("empty", [], []), figure("nothing finite", [None], [None]), figure("flat", [1, 2], [3.0, 3.0]), figure("zeros on log", [1, 2], [0.0, 0.0], log=True),
-        figure("same name", [1], [1]), figure("same name", [1], [2]), figure("unequal", [1, 2, 3], [1]), figure("one particle", [0.0], [0.0], "particles"),
-        figure("no particle", [None], [0.0], "particles"), figure("lost colours", [0.0, 1.0], [0.0, 1.0], "particles", colour=[None, 1.0]),
+        figure("empty", [], []), figure("nothing finite", [None], [None]), figure("flat", [1, 2], [3.0, 3.0]),
+        figure("zeros on log", [1, 2], [0.0, 0.0], log=True),
+        figure("same name", [1], [1]), figure("same name", [1], [2]), figure("unequal", [1, 2, 3], [1]),
+        figure("one particle", [0.0], [0.0], "particles"),
+        figure("no particle", [None], [0.0], "particles"), figure("lost colours", [0.0, 1.0], [0.0, 1.0], "particles",
+                                                                  colour=[None, 1.0]),
         {**figure("none", [1], [1]), "series": []}],
-        metrics=[metric("e", 0.1, [0, 1], ladder={**ladder("undetermined", None, None), "value": [None, None, None, None, None], "gci": None, "extrapolated": None}),
+        metrics=[metric("e", 0.1, [0, 1], ladder={**ladder("undetermined", None, None), "value": [None, None, None, None, None],
+                                                  "gci": None, "extrapolated": None}),
                  metric("z", 0.0, [0, 1], ladder={**ladder("round-off", None, None), "value": [0.0] * 5})])
     report = build(run(data)).parent
     page = page_of(report, "kernel/a")
@@ -294,7 +304,8 @@ def test_several_processes_draw_the_same(run):
 
 
 def call(*arguments):
-    return subprocess.run([sys.executable, "-m", "reports", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, timeout=120)
+    return subprocess.run([sys.executable, "-m", "reports", *map(str, arguments)], cwd=ROOT, capture_output=True, text=True,
+                          timeout=120)
 
 
 def test_command_line(run, tmp_path):

@@ -16,7 +16,8 @@ def the_case(folder):
 
 
 def test_a_valid_result_keeps_its_verdict(run):
-    for verdict, m in (("pass", metric("e", 0.5, [0, 1])), ("fail", metric("e", 2.0, [0, 1], "fail")), ("error", metric("e", None, [0, 1], "error")),
+    for verdict, m in (("pass", metric("e", 0.5, [0, 1])), ("fail", metric("e", 2.0, [0, 1], "fail")),
+                       ("error", metric("e", None, [0, 1], "error")),
                        ("known-gap", metric("e", 2.0, [0, 1], "known-gap"))):
         case = the_case(run(result("kernel/a", verdict, [m])))
         assert (case.verdict, case.faults) == (verdict, [])
@@ -37,7 +38,8 @@ def test_an_unreadable_result_is_an_error_with_the_message(run, text, words):
 @pytest.mark.parametrize("change", [
     lambda r: r.pop("provenance"), lambda r: r.update(verdict="green"), lambda r: r["metrics"][0].update(value="1.0"),
     lambda r: r["metrics"][0].update(band=[0]), lambda r: r.update(surprise=1), lambda r: r.update(schema=2),
-    lambda r: r.update(figures=[{"name": "f", "title": "f", "kind": "lines", "x": {"label": "x", "unit": "1"}, "y": {"label": "y", "unit": "1"},
+    lambda r: r.update(figures=[{"name": "f", "title": "f", "kind": "lines", "x": {"label": "x", "unit": "1"},
+                                 "y": {"label": "y", "unit": "1"},
                                  "series": [{"label": "s", "role": "computed", "x": [1, "2"], "y": [1, 2]}]}])])
 def test_a_result_against_the_schema_is_an_error(run, change):
     data = copy.deepcopy(result("kernel/a"))
@@ -76,7 +78,8 @@ def test_an_announced_case_without_a_result_is_an_error(run):
 
 def test_reds_come_first(run):
     verdicts = {"a": "pass", "b": "known-gap", "c": "fail", "d": "error", "e": "pass"}
-    cases = load(run(*(result(f"kernel/{k}", v, [metric("m", 0.5 if v == "pass" else 2.0, [0, 1], v)]) for k, v in verdicts.items()))).cases
+    cases = load(run(*(result(f"kernel/{k}", v, [metric("m", 0.5 if v == "pass" else 2.0, [0, 1], v)]) for k,
+                       v in verdicts.items()))).cases
     assert [c.id[-1] for c in cases] == ["d", "c", "b", "a", "e"]
 
 
@@ -96,7 +99,8 @@ def test_a_folder_that_is_no_run_is_refused(tmp_path):
 def test_the_short_cut_for_numbers_agrees_with_the_schema():
     validator = results._validator()
     series = {"label": "s", "role": "computed", "x": [1, 2.5, None], "y": [1, 2, 3]}
-    figure = {"name": "f", "title": "f", "kind": "lines", "x": {"label": "x", "unit": "1"}, "y": {"label": "y", "unit": "1"}, "series": [series]}
+    figure = {"name": "f", "title": "f", "kind": "lines", "x": {"label": "x", "unit": "1"}, "y": {"label": "y", "unit": "1"},
+              "series": [series]}
     assert not list(validator.iter_errors(result("kernel/a", figures=[figure])))
     for wrong in (True, "1", [1], {}):
         series["y"] = [1, wrong, 3]
