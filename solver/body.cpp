@@ -88,7 +88,8 @@ void Body<Dim>::find_neighbours() {
   p.density.resize(extended);
   p.sound_speed.resize(extended);
   volume_.resize(extended);
-  if (scheme.correction) correction_.resize(n);
+  if (scheme.correction == Correction::linear) linear_.resize(n);
+  if (scheme.correction == Correction::quadratic) quadratic_.resize(n);
   ++builds_;
 }
 
@@ -130,22 +131,33 @@ void Body<Dim>::fill_images() {
 }
 
 template <int Dim>
-std::span<const Matrix<Dim>> Body<Dim>::correction() {
+CorrectionView<Dim> Body<Dim>::correction() {
   Particles<Dim>& p = particles;
   const auto extended = static_cast<std::int64_t>(p.position.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t k = 0; k < extended; ++k) volume_[static_cast<std::size_t>(k)] = p.volume(static_cast<std::size_t>(k));
-  if (!scheme.correction) return {};
-  kernel_correction<Dim>(stencil(), volume_, correction_);
-  return correction_;
+  switch (scheme.correction) {
+    case Correction::none:
+      return std::monostate{};
+    case Correction::linear:
+      kernel_correction<Dim>(stencil(), volume_, linear_);
+      return std::span<const Matrix<Dim>>(linear_);
+    case Correction::quadratic:
+      if constexpr (Dim == 2) quadratic_correction<Dim>(stencil(), volume_, quadratic_);
+      return std::span<const QuadraticGradient<Dim>>(quadratic_);
+  }
+  throw std::logic_error("unknown correction");
 }
 
 template <int Dim>
 double Body<Dim>::respond(double dt, std::int64_t step) {
   Particles<Dim>& p = particles;
   const Stencil<Dim> s = stencil();
-  const std::span<const Matrix<Dim>> B = correction();
-  furrow::velocity_gradient<Dim>(s, volume_, p.velocity, B, velocity_gradient_);
+  correction();
+  if (scheme.correction != Correction::quadratic)
+    furrow::velocity_gradient<Dim>(s, volume_, p.velocity, linear_, velocity_gradient_);
+  else if constexpr (Dim == 2)
+    quadratic_velocity_gradient<Dim>(s, volume_, p.velocity, quadratic_, velocity_gradient_);
 
   const bool shepard = scheme.density == DensityEquation::shepard ||
                        (scheme.shepard_every > 0 && step % scheme.shepard_every == scheme.shepard_every - 1);

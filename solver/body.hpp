@@ -69,11 +69,12 @@ class Body {
  private:
   void find_neighbours();
   void fill_images();
-  std::span<const Matrix<Dim>> correction();
+  CorrectionView<Dim> correction();   // volumes and corrections for where particles are now
 
   NeighbourList neighbours_;
   std::vector<std::int32_t> index_of_id_;
-  std::vector<Matrix<Dim>> velocity_gradient_, correction_;
+  std::vector<Matrix<Dim>> velocity_gradient_, linear_;
+  std::vector<QuadraticGradient<Dim>> quadratic_;
   std::vector<double> volume_, density_before_;
   std::vector<MomentumPower> power_;
   MomentumWorkspace<Dim> workspace_;

@@ -10,14 +10,9 @@
 
 namespace furrow {
 
-/// A plane that bounds a body; the body lies where (x - point).normal > 0.
+/// A plane of symmetry; the body lies where (x - point).normal > 0. Nothing moves through it, along it everything slips.
 template <int Dim>
-struct MirrorPlane {
-  enum class Kind {
-    symmetry,   ///< the image moves as in a mirror: free slip, no motion through the plane
-    no_slip     ///< the image moves against its source: the plane holds the body, as a clamp or a perfectly rough wall
-  };
-  Kind kind = Kind::symmetry;
+struct SymmetryPlane {
   Vector<Dim> point = Vector<Dim>::Zero();
   Vector<Dim> normal = Vector<Dim>::Unit(0);   ///< unit vector into the body
 
@@ -30,17 +25,17 @@ template <int Dim>
 class Images {
  public:
   Images() = default;
-  explicit Images(std::vector<MirrorPlane<Dim>> planes) : planes_(std::move(planes)) {
+  explicit Images(std::vector<SymmetryPlane<Dim>> planes) : planes_(std::move(planes)) {
     for (std::size_t a = 0; a < planes_.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         if (std::abs(planes_[a].normal.dot(planes_[b].normal)) > 1e-12)
-          throw std::invalid_argument("mirror planes must be perpendicular to each other");
+          throw std::invalid_argument("symmetry planes must be perpendicular to each other");
     for (std::uint32_t set = 1; set < (1u << planes_.size()); ++set) maps_.push_back(map_of(set));
   }
 
   bool empty() const { return planes_.empty(); }
   std::size_t size() const { return source_.size(); }
-  const std::vector<MirrorPlane<Dim>>& planes() const { return planes_; }
+  const std::vector<SymmetryPlane<Dim>>& planes() const { return planes_; }
 
   /// Chooses the particles within reach of the planes and returns the positions of their images.
   std::vector<Vector<Dim>> choose(std::span<const Vector<Dim>> proper, double reach) {
@@ -78,37 +73,55 @@ class Images {
     for (std::size_t k = 0; k < size(); ++k) x[count_ + k] = map(k).turn * x[source(k)] + map(k).shift;
   }
   void fill_velocities(std::span<Vector<Dim>> v) const {
-    for (std::size_t k = 0; k < size(); ++k) v[count_ + k] = map(k).velocity_turn * v[source(k)];
+    for (std::size_t k = 0; k < size(); ++k) v[count_ + k] = map(k).turn * v[source(k)];
   }
-  /// For what is multiplied with grad W in the momentum sum. With the velocity of an image U v and its position T x + s, the sum
-  /// is the dual of the velocity gradient, and so conserves energy, exactly when the image's tensor is U A T: that is the mirrored
-  /// stress for a symmetry plane, and the same traction on both sides of a no-slip plane.
+  /// For what is multiplied with grad W in the momentum sum: T A T, the stress seen in the mirror. It makes that sum the dual
+  /// of the velocity gradient with images, so that energy is conserved.
   void fill_tensors(std::span<Matrix<Dim>> A) const {
-    for (std::size_t k = 0; k < size(); ++k) A[count_ + k] = map(k).velocity_turn * A[source(k)] * map(k).turn;
+    for (std::size_t k = 0; k < size(); ++k) A[count_ + k] = map(k).turn * A[source(k)] * map(k).turn;
+  }
+  /// The same for tensors that act on (s_a, s_a s_b for a <= b): T A T_p, where T_p is what T does to those terms.
+  template <int Terms>
+  void fill_quadratic(std::span<Eigen::Matrix<double, Dim, Terms>> A) const {
+    std::vector<Eigen::Matrix<double, Terms, Terms>> turns;
+    for (const Map& m : maps_) turns.push_back(turn_of_terms<Terms>(m.turn));
+    for (std::size_t k = 0; k < size(); ++k) A[count_ + k] = map(k).turn * A[source(k)] * turns[map_[k]];
   }
 
  private:
+  /// T_p with p(T s) = T_p p(s).
+  template <int Terms>
+  static Eigen::Matrix<double, Terms, Terms> turn_of_terms(const Matrix<Dim>& T) {
+    Eigen::Matrix<double, Terms, Terms> turn = Eigen::Matrix<double, Terms, Terms>::Zero();
+    turn.template topLeftCorner<Dim, Dim>() = T;
+    int row = Dim;
+    for (int a = 0; a < Dim; ++a)
+      for (int b = a; b < Dim; ++b, ++row) {
+        int column = Dim;
+        for (int c = 0; c < Dim; ++c)
+          for (int d = c; d < Dim; ++d, ++column) turn(row, column) = T(a, c) * T(b, d) + (c == d ? 0.0 : T(a, d) * T(b, c));
+      }
+    return turn;
+  }
   struct Map {
-    Matrix<Dim> turn, velocity_turn;   ///< T and U
-    Vector<Dim> shift;                 ///< s
+    Matrix<Dim> turn;     ///< T
+    Vector<Dim> shift;    ///< s: the image of x is T x + s
   };
   Map map_of(std::uint32_t set) const {
-    Map m{Matrix<Dim>::Identity(), Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
+    Map m{Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
     for (std::size_t k = 0; k < planes_.size(); ++k) {
       if (!(set >> k & 1u)) continue;
-      const MirrorPlane<Dim>& plane = planes_[k];
-      const Matrix<Dim> mirror = Matrix<Dim>::Identity() - 2.0 * plane.normal * plane.normal.transpose();
-      const bool symmetric = plane.kind == MirrorPlane<Dim>::Kind::symmetry;
+      const Vector<Dim>& n = planes_[k].normal;
+      const Matrix<Dim> mirror = Matrix<Dim>::Identity() - 2.0 * n * n.transpose();
       m.turn = mirror * m.turn;
-      m.shift = mirror * m.shift + 2.0 * plane.point.dot(plane.normal) * plane.normal;
-      m.velocity_turn = symmetric ? Matrix<Dim>(mirror * m.velocity_turn) : Matrix<Dim>(-m.velocity_turn);
+      m.shift = mirror * m.shift + 2.0 * planes_[k].point.dot(n) * n;
     }
     return m;
   }
   std::size_t source(std::size_t k) const { return static_cast<std::size_t>(source_[k]); }
   const Map& map(std::size_t k) const { return maps_[map_[k]]; }
 
-  std::vector<MirrorPlane<Dim>> planes_;
+  std::vector<SymmetryPlane<Dim>> planes_;
   std::vector<Map> maps_;
   std::vector<std::int32_t> source_;
   std::vector<std::uint8_t> map_;

@@ -1,6 +1,7 @@
 #include "solver/schemes/momentum.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace furrow {
 namespace {
@@ -16,21 +17,37 @@ Lanes power_of(const Lanes& f, double n) {
 }
 
 /// The sum itself; which terms are on is known when it is compiled, so that what is off costs nothing.
-template <int Dim, bool Viscous, bool Artificial>
+template <int Dim, bool Quadratic, bool Viscous, bool Artificial>
 void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, bool dual,
                const MomentumTerms& terms, const MomentumWorkspace<Dim>& w, std::span<Vector<Dim>> acceleration,
                std::span<MomentumPower> power) {
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
-    const LaneMatrix<Dim> A_i = broadcast<Dim>(w.A[i]);
     const Lanes prefactor = broadcast(dual ? 1.0 / p.density[i] : 1.0);
+    const auto kernel = [h](const Pairs<Dim>& pair) { return scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)); };
+    // [A_i + A_j] grad W, or W [Q_i p(s_ij) - Q_j p(s_ji)]: even terms of p change sign against odd ones when i and j swap.
+    const auto stress_term = [&](const Pairs<Dim>& pair) {
+      if constexpr (Quadratic) {
+        constexpr int terms_of_p = quadratic_terms<Dim>;
+        const LaneVector<terms_of_p> basis = quadratic_basis<Dim>(pair.x_ij, h);
+        LaneVector<Dim> f;
+        for (int b = 0; b < terms_of_p; ++b)
+          for (int a = 0; a < Dim; ++a) {
+            const Lanes Q_j = gather(w.Q.data()->data(), pair.j, Dim * terms_of_p, b * Dim + a);
+            f[a] += (b < Dim ? w.Q[i](a, b) + Q_j : w.Q[i](a, b) - Q_j) * basis[b];
+          }
+        return kernel(pair) * f;
+      } else {
+        return (broadcast<Dim>(w.A[i]) + gather<Dim>(w.A.data(), pair.j)) * pair.grad;
+      }
+    };
     LaneVector<Dim> a;
     Lanes stress_power{}, viscous_power{}, artificial_power{};
     neighbours([&](const Pairs<Dim>& pair) {
       const LaneVector<Dim> v_ij = v_i - gather<Dim>(velocity.data(), pair.j);
       const Lanes weight = prefactor * gather(w.weight.data(), pair.j);
-      const LaneVector<Dim> from_stress = weight * ((A_i + gather<Dim>(w.A.data(), pair.j)) * pair.grad);
+      const LaneVector<Dim> from_stress = weight * stress_term(pair);
       a += from_stress;
       stress_power += dot(from_stress, v_ij);
       if constexpr (Viscous || Artificial) {
@@ -44,8 +61,8 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
           viscous_power += dot(from_viscosity, v_ij);
         }
         if constexpr (Artificial) {
-          const double W_dx = Shape<K, Dim>::w(terms.spacing / h);
-          const Lanes f = Shape<K, Dim>::w(pair.r * (1.0 / h)) * (1.0 / W_dx);
+          const double W_dx = value<K, Dim>(terms.spacing, h);
+          const Lanes f = kernel(pair) * (1.0 / W_dx);
           const LaneMatrix<Dim> R = broadcast<Dim>(w.R[i]) + gather<Dim>(w.R.data(), pair.j);
           const LaneVector<Dim> from_artificial = (m_j * power_of(f, terms.artificial_stress->n)) * (R * pair.grad);
           a += from_artificial;
@@ -62,44 +79,60 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
 
 template <int Dim>
 void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
-              std::span<const Matrix<Dim>> correction, const MomentumTerms& terms, MomentumWorkspace<Dim>& w,
+              const CorrectionView<Dim>& correction, const MomentumTerms& terms, MomentumWorkspace<Dim>& w,
               std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
-  const bool dual = !correction.empty();
+  const auto* linear = std::get_if<std::span<const Matrix<Dim>>>(&correction);
+  const auto* quadratic = std::get_if<std::span<const QuadraticGradient<Dim>>>(&correction);
+  const bool dual = linear || quadratic;
+  if (quadratic && Dim != 2) throw std::invalid_argument("quadratic gradients are there for two dimensions only");
+  const std::size_t extended = stencil.position.size();
+  w.weight.resize(extended);
+  if (quadratic)
+    w.Q.resize(extended);
+  else
+    w.A.resize(extended);
+  if (terms.artificial_stress) w.R.resize(extended);
   const auto n = static_cast<std::int64_t>(p.size());
-  w.A.resize(stencil.position.size());
-  w.weight.resize(stencil.position.size());
-  if (terms.artificial_stress) w.R.resize(stencil.position.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>();
     const double rho = p.density[i];
-    if (dual) {
-      w.A[i] = sigma * correction[i].transpose();
-      w.weight[i] = p.volume(i);
-    } else {
+    w.weight[i] = dual ? p.volume(i) : p.mass[i];
+    if (quadratic)
+      w.Q[i] = sigma * (*quadratic)[i];
+    else if (linear)
+      w.A[i] = sigma * (*linear)[i].transpose();
+    else
       w.A[i] = sigma / (rho * rho);
-      w.weight[i] = p.mass[i];
-    }
     if (terms.artificial_stress) w.R[i] = artificial_stress<Dim>(*terms.artificial_stress, sigma, rho);
   }
   if (stencil.images) {
     stencil.images->fill(std::span(w.weight));
-    stencil.images->fill_tensors(std::span(w.A));
+    if (quadratic)
+      stencil.images->fill_quadratic(std::span(w.Q));
+    else
+      stencil.images->fill_tensors(std::span(w.A));
     if (terms.artificial_stress) stencil.images->fill_tensors(std::span(w.R));
   }
-  const auto run = [&]<bool Viscous, bool Artificial>() {
-    sum_pairs<Dim, Viscous, Artificial>(stencil, p, velocity, dual, terms, w, acceleration, power);
+
+  const auto run = [&]<bool Quadratic, bool Viscous, bool Artificial>() {
+    sum_pairs<Dim, Quadratic, Viscous, Artificial>(stencil, p, velocity, dual, terms, w, acceleration, power);
   };
-  if (terms.viscosity && terms.artificial_stress) run.template operator()<true, true>();
-  else if (terms.viscosity) run.template operator()<true, false>();
-  else if (terms.artificial_stress) run.template operator()<false, true>();
-  else run.template operator()<false, false>();
+  const auto with_terms = [&]<bool Quadratic>() {
+    if (terms.viscosity && terms.artificial_stress) run.template operator()<Quadratic, true, true>();
+    else if (terms.viscosity) run.template operator()<Quadratic, true, false>();
+    else if (terms.artificial_stress) run.template operator()<Quadratic, false, true>();
+    else run.template operator()<Quadratic, false, false>();
+  };
+  if constexpr (Dim == 2)
+    if (quadratic) return with_terms.template operator()<true>();
+  with_terms.template operator()<false>();
 }
 
 #define FURROW_INSTANTIATE(Dim)                                                                                       \
   template void momentum<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const Vector<Dim>>,               \
-                              std::span<const Matrix<Dim>>, const MomentumTerms&, MomentumWorkspace<Dim>&,            \
+                              const CorrectionView<Dim>&, const MomentumTerms&, MomentumWorkspace<Dim>&,              \
                               std::span<Vector<Dim>>, std::span<MomentumPower>);
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)

@@ -6,6 +6,7 @@
 
 #include "solver/particles/fields.hpp"
 #include "solver/schemes/artificial_stress.hpp"
+#include "solver/schemes/quadratic_gradient.hpp"
 #include "solver/schemes/stencil.hpp"
 #include "solver/schemes/viscosity.hpp"
 
@@ -27,6 +28,7 @@ struct MomentumPower {
 template <int Dim>
 struct MomentumWorkspace {
   std::vector<Matrix<Dim>> A, R;
+  std::vector<QuadraticGradient<Dim>> Q;
   std::vector<double> weight;
 };
 
@@ -38,9 +40,15 @@ struct MomentumWorkspace {
 /// With correction the dual of the corrected velocity gradient (Bonet & Lok 1999):
 ///   a_i = 1/rho_i sum_j V_j [ sigma_i B_i^T + sigma_j B_j^T ] grad_i W_ij + the same artificial terms
 /// whose power is exactly -sum V sigma:L of the corrected gradient, so that angular momentum is conserved as well.
+/// With a quadratic correction likewise the dual of that gradient:
+///   a_i = 1/rho_i sum_j V_j W_ij [ sigma_i C_i p(s_ij) - sigma_j C_j p(s_ji) ] + the same artificial terms
+/// `none` is spelt std::monostate.
+template <int Dim>
+using CorrectionView = std::variant<std::monostate, std::span<const Matrix<Dim>>, std::span<const QuadraticGradient<Dim>>>;
+
 template <int Dim>
 void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& particles, std::span<const Vector<Dim>> velocity,
-              std::span<const Matrix<Dim>> correction, const MomentumTerms& terms, MomentumWorkspace<Dim>& workspace,
+              const CorrectionView<Dim>& correction, const MomentumTerms& terms, MomentumWorkspace<Dim>& workspace,
               std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power);
 
 }  // namespace furrow

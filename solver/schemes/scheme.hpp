@@ -15,10 +15,17 @@ enum class DensityEquation {
   summation     ///< paper Eq. 6 with f = rho
 };
 
+/// What makes gradients consistent. With a correction the momentum sum is the dual of the corrected velocity gradient.
+enum class Correction {
+  none,        ///< the paper's form
+  linear,      ///< Bonet & Lok: exact for linear fields
+  quadratic    ///< moving least squares of second order: exact for quadratic fields; what bending needs
+};
+
 struct Scheme {
   AnyKernel kernel = WendlandC2{};
   double smoothing_ratio = 1.5;                          ///< h/dx
-  bool correction = true;                                ///< Bonet & Lok, with the dual momentum form; else the paper's form
+  Correction correction = Correction::linear;
   DensityEquation density = DensityEquation::continuity;
   int shepard_every = 0;                                 ///< steps between re-normalisations of the density by Eq. 7; 0 = never
   std::optional<ArtificialViscosity> viscosity = ArtificialViscosity{};

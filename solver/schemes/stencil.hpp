@@ -36,13 +36,14 @@ struct Pairs {
 
 /// Calls per_particle(i, loop) for every particle, in parallel; loop(f) then calls f(Pairs) for all neighbours of i, eight at
 /// a time. Each particle sums its own row, so that the number of threads changes nothing.
-template <int Dim, class K, bool Periodic, class PerParticle>
+template <int Dim, class K, class PerParticle>
 void sweep(const Stencil<Dim>& s, PerParticle&& per_particle) {
   const double h = s.smoothing_length;
   const Lanes inverse_h = broadcast(1.0 / h), dW = broadcast(scale<K, Dim>(h) / h), tiny = broadcast(1e-300);
   const Vector<Dim>* const position = s.position.data();
   const std::int64_t* const begin = s.neighbours->begin.data();
   const std::int32_t* const index = s.neighbours->index.data();
+  const bool periodic = s.box.any_periodic();
   const auto n = static_cast<std::int64_t>(s.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < n; ++i) {
@@ -52,7 +53,7 @@ void sweep(const Stencil<Dim>& s, PerParticle&& per_particle) {
         Pairs<Dim> pair;
         pair.j = load_index(index + k);
         pair.x_ij = x_i - gather<Dim>(position, pair.j);
-        if constexpr (Periodic) pair.x_ij = nearest_image(pair.x_ij, s.box);
+        if (periodic) pair.x_ij = nearest_image(pair.x_ij, s.box);
         pair.r = square_root(dot(pair.x_ij, pair.x_ij) + tiny);
         pair.grad = (dW * Shape<K, Dim>::dw(pair.r * inverse_h) / pair.r) * pair.x_ij;
         f(pair);
@@ -61,18 +62,13 @@ void sweep(const Stencil<Dim>& s, PerParticle&& per_particle) {
   }
 }
 
-/// sweep with the stencil's own kernel and box: the choice is made once a sweep, never in the loop. per_particle is called
-/// with a third argument, the kernel, for sums that need W itself.
+/// sweep with the stencil's own kernel: the choice is made once a sweep, never in the loop. per_particle is called with a third
+/// argument, the kernel, for sums that need W itself.
 template <int Dim, class PerParticle>
 void for_each_particle(const Stencil<Dim>& s, PerParticle&& per_particle) {
   std::visit(
       [&](auto kernel) {
-        using K = decltype(kernel);
-        const auto with_kernel = [&](std::size_t i, auto&& loop) { per_particle(i, loop, kernel); };
-        if (s.box.any_periodic())
-          sweep<Dim, K, true>(s, with_kernel);
-        else
-          sweep<Dim, K, false>(s, with_kernel);
+        sweep<Dim, decltype(kernel)>(s, [&](std::size_t i, auto&& loop) { per_particle(i, loop, kernel); });
       },
       s.kernel);
 }
