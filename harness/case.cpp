@@ -42,7 +42,8 @@ void Run::note(std::string_view sentence) { notes_.emplace_back(sentence); }
 void Run::exercises(std::string_view module) { modules_.emplace(module); }
 
 void Run::file(std::string_view kind, const std::filesystem::path& path) {
-  if (kind != "history" && kind != "snapshots") throw std::logic_error("kind of file '" + std::string(kind) + "': history or snapshots");
+  if (kind != "history" && kind != "snapshots")
+    throw std::logic_error("kind of file '" + std::string(kind) + "': history or snapshots");
   files_.emplace_back(std::string(kind), path);
 }
 
@@ -60,7 +61,8 @@ Family::Family(std::string name, std::string folder, std::string description)
     : name_(std::move(name)), folder_(std::move(folder)), description_(std::move(description)) {}
 
 Family& Family::add(std::string problem, ProblemBuilder build) {
-  if (!problems_.emplace(problem, build).second) throw std::logic_error("problem '" + problem + "' is added twice to family " + name_);
+  if (!problems_.emplace(problem, build).second)
+    throw std::logic_error("problem '" + problem + "' is added twice to family " + name_);
   return *this;
 }
 

@@ -40,17 +40,20 @@ void read_sources(const Parameters& table, Bibliography& bibliography) {
     const Parameters entry = table.table(key);
     const Citation citation{key, entry.text("text"), entry.text_or("doi", "")};
     entry.check_all_used();
-    if (!bibliography.emplace(key, citation).second) table.fail(key, "found a source of this name before, expected a name of its own");
+    if (!bibliography.emplace(key, citation).second)
+      table.fail(key, "found a source of this name before, expected a name of its own");
   }
 }
 
-std::string known_source(const Parameters& at, std::string_view key, const std::string& source, const Bibliography& bibliography) {
+std::string known_source(const Parameters& at, std::string_view key, const std::string& source,
+                         const Bibliography& bibliography) {
   if (!bibliography.contains(source)) {
     std::vector<std::string> known;
     for (const auto& [name, citation] : bibliography) known.push_back(name);
     const std::string nearest = nearest_word(source, known);
-    at.fail(key, fmt::format("found \"{}\", expected a key of the bibliography (reference/sources.toml, or [sources] of this file){}", source,
-                             nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+    at.fail(key,
+            fmt::format("found \"{}\", expected a key of the bibliography (reference/sources.toml, or [sources] of this file){}",
+                        source, nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
   }
   return source;
 }
@@ -65,7 +68,8 @@ void read_resolution(const Parameters& at, CaseSpec& spec) {
   const auto check = [&](std::string_view key, std::vector<double> list) {
     if (list.empty()) resolution.fail(key, "found an empty list, expected at least one number");
     std::sort(list.begin(), list.end());
-    if (std::adjacent_find(list.begin(), list.end()) != list.end()) resolution.fail(key, "found a number twice, expected each once");
+    if (std::adjacent_find(list.begin(), list.end()) != list.end())
+      resolution.fail(key, "found a number twice, expected each once");
   };
   check("spacing", spec.spacing);
   check("h_over_dx", spec.smoothing_ratio);
@@ -99,8 +103,11 @@ void read_band(const Parameters& at, MetricSpec& metric) {
   }
   const std::vector<double> ends = at.numbers("band", {-range::infinity, range::infinity});
   if (ends.size() != 2) at.fail("band", fmt::format("found {} numbers, expected two, [lowest, highest]", ends.size()));
-  if (ends[0] > ends[1]) at.fail("band", fmt::format("found [{:g}, {:g}], expected the lower end first, [{:g}, {:g}]", ends[0], ends[1], ends[1], ends[0]));
-  if (std::isinf(ends[0]) && std::isinf(ends[1])) at.fail("band", "found two open ends, expected at least one number: such a band cannot fail");
+  if (ends[0] > ends[1])
+    at.fail("band",
+            fmt::format("found [{:g}, {:g}], expected the lower end first, [{:g}, {:g}]", ends[0], ends[1], ends[1], ends[0]));
+  if (std::isinf(ends[0]) && std::isinf(ends[1]))
+    at.fail("band", "found two open ends, expected at least one number: such a band cannot fail");
   if (!metric.observed_order_of.empty() && (std::isinf(ends[0]) || std::isinf(ends[1])))
     at.fail("band", "found an open end, expected two numbers: an order that is too high is as wrong as one that is too low");
   metric.band = Band{ends[0], ends[1]};
@@ -112,24 +119,31 @@ void read_norm(const Parameters& at, MetricSpec& metric) {
   static const std::regex form("((L1|L2|Linf) )?((absolute|relative) )?(absolute|relative|value)");
   std::smatch match;
   if (!std::regex_match(metric.norm_words, match, form) || (match[4].matched && match[5] != "value"))
-    at.fail("norm", fmt::format("found \"{}\", expected absolute, relative or value, with the field norm before it where there is one: \"L2 relative\"",
-                                metric.norm_words));
+    at.fail(
+        "norm",
+        fmt::format(
+            "found \"{}\", expected absolute, relative or value, with the field norm before it where there is one, as in "
+            "\"L2 relative\"",
+            metric.norm_words));
   metric.norm = match[5] == "absolute" ? Norm::absolute : match[5] == "relative" ? Norm::relative : Norm::value;
 }
 
 void read_ladder(const Parameters& at, MetricSpec& metric) {
-  if (at.has("ladder")) metric.ladder = at.choice("ladder", {"error", "value"}) == "error" ? LadderKind::error : LadderKind::value;
+  if (at.has("ladder"))
+    metric.ladder = at.choice("ladder", {"error", "value"}) == "error" ? LadderKind::error : LadderKind::value;
   metric.observed_order_of = at.text_or("observed_order_of", "");
   metric.states = {LadderState::asymptotic};
   if (metric.observed_order_of.empty()) return;
   if (metric.ladder) at.fail("ladder", "found a ladder on an observed order, expected it on the metric whose order this is");
-  if (metric.norm != Norm::value) at.fail("norm", fmt::format("found \"{}\", expected \"value\" for an observed order", metric.norm_words));
+  if (metric.norm != Norm::value)
+    at.fail("norm", fmt::format("found \"{}\", expected \"value\" for an observed order", metric.norm_words));
   if (metric.unit.dimension != dimension::none || metric.unit.factor != 1.0)
     at.fail("unit", fmt::format("found \"{}\", expected \"1\" for an observed order", metric.unit.symbol));
   if (at.has("states")) {
     metric.states.clear();
     for (const std::string& word : at.texts("states")) {
-      if (word != "asymptotic" && word != "plateau") at.fail("states", fmt::format("found \"{}\", expected \"asymptotic\" or \"plateau\"", word));
+      if (word != "asymptotic" && word != "plateau")
+        at.fail("states", fmt::format("found \"{}\", expected \"asymptotic\" or \"plateau\"", word));
       metric.states.push_back(word == "plateau" ? LadderState::plateau : LadderState::asymptotic);
     }
   }
@@ -141,7 +155,8 @@ void read_known_gap(const Parameters& at, MetricSpec& metric) {
   metric.known_gap = KnownGap{gap.text("reason"), gap.date("date"), gap.date("expires")};
   if (!metric.known_gap->date.ok()) gap.fail("date", "expected a day of the calendar");
   if (!metric.known_gap->expires.ok()) gap.fail("expires", "expected a day of the calendar");
-  if (metric.known_gap->expires <= metric.known_gap->date) gap.fail("expires", "found a day not after the gap's date, expected a later one");
+  if (metric.known_gap->expires <= metric.known_gap->date)
+    gap.fail("expires", "found a day not after the gap's date, expected a later one");
   if (metric.known_gap->reason.empty()) gap.fail("reason", "found nothing, expected the cause of the gap");
   if (!metric.band) gap.fail("reason", "found a known gap on a metric without band, expected a band");
 }
@@ -151,7 +166,8 @@ bool applies(const Parameters& at, const Parameters& parameters) {
   const Parameters when = at.table("when");
   bool result = true;
   for (const std::string& key : when.keys()) {
-    if (!parameters.has(key)) when.fail(key, "found a condition on a parameter that this case does not have, expected one of its parameters");
+    if (!parameters.has(key))
+      when.fail(key, "found a condition on a parameter that this case does not have, expected one of its parameters");
     const std::string value = parameters.word(key);
     bool listed = false;
     for (std::size_t i = 0; i < when.length(key); ++i) listed = listed || when.word(key, i) == value;
@@ -169,7 +185,8 @@ MetricSpec read_metric(const Parameters& at, const Bibliography& bibliography, c
   metric.description = at.text_or("description", "");
   const std::string symbol = at.text("unit");
   const auto unit = parse_unit(symbol);
-  if (!unit) at.fail("unit", fmt::format("found \"{}\", expected a unit that furrow knows, such as \"1\", \"mm\" or \"MPa\"", symbol));
+  if (!unit)
+    at.fail("unit", fmt::format("found \"{}\", expected a unit that furrow knows, such as \"1\", \"mm\" or \"MPa\"", symbol));
   metric.unit = *unit;
   metric.reference_class = at.choice("class", classes);
   read_norm(at, metric);
@@ -192,13 +209,16 @@ void check_metrics(const std::vector<Parameters>& blocks, const CaseSpec& spec) 
   std::set<std::string> names;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const MetricSpec& metric = spec.metrics[i];
-    if (!names.insert(metric.name).second) blocks[i].fail("name", fmt::format("found \"{}\" twice in this case, expected a name of its own", metric.name));
+    if (!names.insert(metric.name).second)
+      blocks[i].fail("name", fmt::format("found \"{}\" twice in this case, expected a name of its own", metric.name));
     if (metric.ladder && spec.spacing.size() < 3 && spec.overrides.empty())
       blocks[i].fail("ladder", fmt::format("found a ladder of {} spacings, expected at least three", spec.spacing.size()));
     if (metric.observed_order_of.empty()) continue;
-    const auto of = std::find_if(spec.metrics.begin(), spec.metrics.end(), [&](const MetricSpec& m) { return m.name == metric.observed_order_of; });
+    const auto of = std::find_if(spec.metrics.begin(), spec.metrics.end(),
+                                 [&](const MetricSpec& m) { return m.name == metric.observed_order_of; });
     if (of == spec.metrics.end() || !of->ladder)
-      blocks[i].fail("observed_order_of", fmt::format("found \"{}\", expected a metric of this case that has a ladder", metric.observed_order_of));
+      blocks[i].fail("observed_order_of",
+                     fmt::format("found \"{}\", expected a metric of this case that has a ladder", metric.observed_order_of));
   }
 }
 
@@ -228,8 +248,8 @@ std::vector<Combination> combinations(const Parameters& at) {
   return result;
 }
 
-CaseSpec read_instance(const Parameters& block, const Combination& combination, const Family& family, const Bibliography& bibliography,
-                       const Overrides& overrides) {
+CaseSpec read_instance(const Parameters& block, const Combination& combination, const Family& family,
+                       const Bibliography& bibliography, const Overrides& overrides) {
   Parameters at = block.copy();
   CaseSpec spec;
   spec.family = family.name();
@@ -275,7 +295,8 @@ CaseSpec read_instance(const Parameters& block, const Combination& combination, 
   spec.why = text("why");
   spec.description = text("description");
   spec.tier = tier_by_name(at.choice("tier", tier_names));
-  spec.time_limit = at.quantity_or("time_limit", dimension::time, default_time_limit[static_cast<std::size_t>(spec.tier)], range::positive);
+  spec.time_limit =
+      at.quantity_or("time_limit", dimension::time, default_time_limit[static_cast<std::size_t>(spec.tier)], range::positive);
   read_resolution(at, spec);
 
   const Parameters parameters = at.table_or_empty("parameters");
@@ -347,7 +368,8 @@ std::vector<CaseSpec> read_case_file(const std::filesystem::path& file, const st
   for (const std::string& key : root.keys())
     if (key != "family" && key != "case" && key != "sources") {
       const std::string nearest = nearest_word(key, {"family", "case", "sources"});
-      root.fail(key, fmt::format("unknown key{}; known here: family, case, sources", nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+      root.fail(key, fmt::format("unknown key{}; known here: family, case, sources",
+                                 nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
     }
   return specs;
 }
@@ -360,11 +382,13 @@ std::vector<CaseSpec> read_all_cases(const std::vector<Family>& families, const 
     for (CaseSpec& spec : specs) {
       const auto same = std::find_if(all.begin(), all.end(), [&](const CaseSpec& s) { return s.id == spec.id; });
       if (same != all.end())
-        throw InputError(spec.file.string(), 0, spec.id, fmt::format("found a case of this name in {} too, expected a name of its own", same->file.string()));
+        throw InputError(spec.file.string(), 0, spec.id,
+                         fmt::format("found a case of this name in {} too, expected a name of its own", same->file.string()));
       all.push_back(std::move(spec));
     }
   };
-  for (const Family& family : families) add(read_case_file(root / family.folder() / "cases.toml", families, &family, bibliography, overrides));
+  for (const Family& family : families)
+    add(read_case_file(root / family.folder() / "cases.toml", families, &family, bibliography, overrides));
   for (const std::filesystem::path& file : outside) add(read_case_file(file, families, nullptr, bibliography, overrides));
   return all;
 }

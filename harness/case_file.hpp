@@ -14,19 +14,19 @@
 //   tier = "smoke"                              # smoke | quick | nightly | full
 //   time_limit = { value = 60, unit = "s" }     # optional; default 60 s, 5 min, 60 min, 6 h by tier
 //   sources = ["fang-2024"]                     # optional; citations beside those of the metrics
-//   sweep = { kernel = ["cubic_spline"], dimension = [1, 2, 3] }    # optional; an instance a combination, values go to parameters
+//   sweep = { kernel = ["cubic_spline"], dimension = [1, 2, 3] }    # optional; an instance a combination of parameters
 //   parameters = { ... }                        # what the problem asks for
-//   resolution = { spacing = { value = [4, 2, 1], unit = "mm" }, h_over_dx = [1.2, 1.5] }   # optional; the problem runs once a pair
+//   resolution = { spacing = { value = [4, 2, 1], unit = "mm" }, h_over_dx = [1.2, 1.5] }   # optional; a run a pair
 //
 //   [[case.metric]]
 //   name = "unit_integral"; symbol = "int W dV"; unit = "1"; description = "..."
 //   class = "exact"                             # exact | manufactured | independent | experiment | published | self
 //   reference = { value = 1.0, standard_uncertainty = 0.0, source = "monaghan-1985" }
-//                                               # value in the metric's unit, or "computed": the code hands it over; with norm "value"
-//                                               # it may be left out; source is a key of the bibliography
-//   norm = "absolute"                           # absolute: value - reference; relative: (value - reference)/reference; value: the
-//                                               # band is on the value itself. A field norm may stand before: "L2 relative". A value
-//                                               # that is itself a norm of an error says which: "L2 relative value"
+//                                               # value in the metric's unit, or "computed": the code hands it over; with norm
+//                                               # "value" it may be left out; source is a key of the bibliography
+//   norm = "absolute"                           # absolute: value - reference; relative: (value - reference)/reference; value:
+//                                               # the band is on the value itself. A field norm may stand before: "L2 relative".
+//                                               # A value that is itself a norm of an error says which: "L2 relative value"
 //   band = [-1e-10, 1e-10]                      # in the metric's unit (relative: 1); -inf or inf is an open end
 //   band_why = "..."                            # where the band comes from
 //   reported = true                             # instead of band and band_why: shown, not gated

@@ -54,12 +54,15 @@ void add_new_names(std::deque<Named>& to, const std::deque<Named>& from) {
     if (std::none_of(to.begin(), to.end(), [&](const Named& known) { return known.name == item.name; })) to.push_back(item);
 }
 
-std::filesystem::path rung_folder(const CaseSpec& spec, const std::filesystem::path& folder, std::size_t spacing, std::size_t ratio) {
+std::filesystem::path rung_folder(const CaseSpec& spec, const std::filesystem::path& folder, std::size_t spacing,
+                                  std::size_t ratio) {
   if (spec.spacing.size() * spec.smoothing_ratio.size() < 2) return folder;
-  return folder / fmt::format("dx-{:g}{}-h-{:g}", spec.spacing[spacing] / unit(spec.spacing_unit).factor, spec.spacing_unit, spec.smoothing_ratio[ratio]);
+  return folder / fmt::format("dx-{:g}{}-h-{:g}", spec.spacing[spacing] / unit(spec.spacing_unit).factor, spec.spacing_unit,
+                              spec.smoothing_ratio[ratio]);
 }
 
-std::string relative_name(const std::filesystem::path& file, const std::filesystem::path& rung, const std::filesystem::path& folder) {
+std::string relative_name(const std::filesystem::path& file, const std::filesystem::path& rung,
+                          const std::filesystem::path& folder) {
   return (file.is_absolute() ? file : rung / file).lexically_relative(folder).string();
 }
 
@@ -80,7 +83,8 @@ CaseProgress case_progress(const std::string& line) {
 }
 
 void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const Json& provenance, int threads, int progress) {
-  const std::size_t spacings = std::max<std::size_t>(1, spec.spacing.size()), ratios = std::max<std::size_t>(1, spec.smoothing_ratio.size());
+  const std::size_t spacings = std::max<std::size_t>(1, spec.spacing.size()),
+                    ratios = std::max<std::size_t>(1, spec.smoothing_ratio.size());
   const Clock::time_point start = Clock::now();
   Teller teller(progress, static_cast<int>(spacings * ratios));
   std::vector<Rung> rungs;
@@ -126,7 +130,8 @@ void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const J
   cost.wall = seconds_since(start);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  cost.cpu = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  cost.cpu = static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+             1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
   cost.peak_rss = usage.ru_maxrss * 1024;
   std::filesystem::create_directories(folder);
   write_json(folder / "result.json", result_json(spec, verdict, shown, cost, provenance));

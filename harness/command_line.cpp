@@ -22,7 +22,8 @@ struct Selection {
 };
 
 bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
-  return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) { return fnmatch(glob.c_str(), id.c_str(), 0) == 0; });
+  return std::any_of(globs.begin(), globs.end(),
+                     [&](const std::string& glob) { return fnmatch(glob.c_str(), id.c_str(), 0) == 0; });
 }
 
 // A tier contains the ones before it.
@@ -73,9 +74,18 @@ void list_json(const std::vector<CaseSpec>& cases) {
   for (const CaseSpec& spec : cases) {
     Json metrics = Json::array();
     for (const MetricSpec& metric : spec.metrics)
-      metrics.push_back({{"name", metric.name}, {"class", metric.reference_class}, {"unit", metric.unit.symbol}, {"gated", metric.band.has_value()}});
-    list.push_back({{"case", spec.id}, {"family", spec.family}, {"problem", spec.problem}, {"title", spec.title}, {"why", spec.why},
-                    {"tier", name(spec.tier)}, {"time_limit_s", spec.time_limit}, {"metrics", metrics}});
+      metrics.push_back({{"name", metric.name},
+                         {"class", metric.reference_class},
+                         {"unit", metric.unit.symbol},
+                         {"gated", metric.band.has_value()}});
+    list.push_back({{"case", spec.id},
+                    {"family", spec.family},
+                    {"problem", spec.problem},
+                    {"title", spec.title},
+                    {"why", spec.why},
+                    {"tier", name(spec.tier)},
+                    {"time_limit_s", spec.time_limit},
+                    {"metrics", metrics}});
   }
   fmt::print("{}\n", list.dump(1));
 }
@@ -97,7 +107,9 @@ void list_plain(const std::vector<CaseSpec>& cases) {
   fmt::print("{} cases\n", cases.size());
 }
 
-int default_jobs(int threads) { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / std::max(1, threads)); }
+int default_jobs(int threads) {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / std::max(1, threads));
+}
 
 class CommandLine {
  public:
@@ -135,8 +147,12 @@ class CommandLine {
 
   void add_run_options(CLI::App* sub) {
     sub->add_option("--out", options_.folder, "Folder of the run (default: runs/<date>-<time>-<commit>)")->type_name("DIR");
-    sub->add_option("--threads", options_.threads, "Threads of each case (default: 1)")->check(CLI::Range(1, 1024))->type_name("N");
-    sub->add_option("--jobs", jobs_, "Cases side by side (default: as many as cores)")->check(CLI::Range(1, 1024))->type_name("N");
+    sub->add_option("--threads", options_.threads, "Threads of each case (default: 1)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    sub->add_option("--jobs", jobs_, "Cases side by side (default: as many as cores)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
     sub->add_flag("--resume", options_.resume, "Keep results of the same commit and inputs that are there already");
     sub->add_flag("--replace", options_.replace, "Replace an earlier run in the folder");
     sub->add_flag("--quiet", options_.quiet, "Print nothing but errors");
@@ -146,26 +162,36 @@ class CommandLine {
   void add_list() {
     CLI::App* sub = command("list", "List the cases", "./furrow list --family kernel --tier quick");
     sub->add_option("--family", selection_.family, "Only this family")->type_name("F");
-    sub->add_option("--tier", selection_.tier, "Only cases of this tier and the ones it contains")->check(CLI::IsMember(tier_names))->type_name("T");
+    sub->add_option("--tier", selection_.tier, "Only cases of this tier and the ones it contains")
+        ->check(CLI::IsMember(tier_names))
+        ->type_name("T");
     sub->add_flag("--json", json_, "As JSON");
     sub->add_flag("--ctest", ctest_, "As CTest commands")->group("");
     sub->callback([this] { action_ = [this] { return list(); }; });
   }
 
   void add_run() {
-    CLI::App* sub = command("run", "Run the named cases and report", "./furrow run 'kernel/*' --set parameters.smoothing_length.value=2");
+    CLI::App* sub = command("run", "Run the named cases and report",
+                            "./furrow run kernel/continuous-cubic-spline-2d --set parameters.smoothing_length.value=2");
     sub->add_option("case", selection_.ids, "Ids of cases, or patterns")->type_name("CASE");
     sub->add_option("--case-file", selection_.case_files, "Cases from outside the repository")->type_name("FILE");
-    sub->add_option("--set", options_.overrides, "Change a key of the cases: parameters.X, resolution.X or time_limit")->type_name("KEY=VALUE")->allow_extra_args(false);
+    sub->add_option("--set", options_.overrides, "Change a key of the cases: parameters.X, resolution.X or time_limit")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
     add_run_options(sub);
     sub->callback([this] { action_ = [this] { return run_named(); }; });
   }
 
   void add_matrix() {
-    CLI::App* sub = command("matrix", "Run every case of a tier and report", "./furrow matrix --tier smoke --only 'kernel/*' --jobs 2");
-    sub->add_option("--tier", selection_.tier, "smoke, quick, nightly or full; a tier contains the ones before it (default: quick)")
-        ->check(CLI::IsMember(tier_names))->type_name("T");
-    sub->add_option("--only", selection_.only, "Only cases whose id matches; may be given several times")->type_name("GLOB")->allow_extra_args(false);
+    CLI::App* sub =
+        command("matrix", "Run every case of a tier and report", "./furrow matrix --tier smoke --only 'kernel/*' --jobs 2");
+    sub->add_option("--tier", selection_.tier,
+                    "smoke, quick, nightly or full; a tier contains the ones before it (default: quick)")
+        ->check(CLI::IsMember(tier_names))
+        ->type_name("T");
+    sub->add_option("--only", selection_.only, "Only cases whose id matches; may be given several times")
+        ->type_name("GLOB")
+        ->allow_extra_args(false);
     add_run_options(sub);
     sub->callback([this] { action_ = [this] { return run_matrix(); }; });
   }
@@ -211,7 +237,9 @@ class CommandLine {
     options_.tier = selection_.tier;
     const std::vector<CaseSpec> cases = of_tier(all_cases(), selection_);
     if (cases.empty())
-      throw InputError("matrix", 0, "", fmt::format("found no case in tier {} that matches, expected at least one; './furrow list' names them all", selection_.tier));
+      throw InputError("matrix", 0, "",
+                       fmt::format("found no case in tier {} that matches, expected at least one; './furrow list' names them all",
+                                   selection_.tier));
     return start(cases);
   }
 
@@ -221,7 +249,8 @@ class CommandLine {
   }
 
   int report() {
-    if (!std::filesystem::is_directory(report_folder_)) throw InputError(report_folder_.string(), 0, "", "found no such folder, expected that of a run");
+    if (!std::filesystem::is_directory(report_folder_))
+      throw InputError(report_folder_.string(), 0, "", "found no such folder, expected that of a run");
     if (!make_report(report_folder_)) return 2;
     if (!options_.quiet) fmt::print("report: {}\n", (report_folder_ / "report/index.html").string());
     return 0;

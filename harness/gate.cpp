@@ -18,7 +18,8 @@ struct Number {
 };
 
 std::string day(std::chrono::year_month_day date) {
-  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
 }
 
 Number faulty(std::string fault) {
@@ -55,7 +56,8 @@ Number number_of(const MetricSpec& metric, const Rung& rung) {
     return faulty(metric.computed_reference ? "the case file says that the code computes the reference, but it hands none over"
                                             : "the code hands a reference over, but the case file does not say \"computed\"");
   number.reference = measured.reference ? measured.reference->value * scale : metric.reference;
-  number.standard_uncertainty = measured.reference ? measured.reference->standard_uncertainty * scale : metric.standard_uncertainty;
+  number.standard_uncertainty =
+      measured.reference ? measured.reference->standard_uncertainty * scale : metric.standard_uncertainty;
   compare(metric, number);
   return number;
 }
@@ -129,7 +131,8 @@ class Judge {
           round_off = round_off_of(metric, number.value, number.reference);
         }
       if (spacing.empty()) continue;
-      result.push_back(metric.ladder == LadderKind::error ? error_ladder(spacing, value, round_off) : value_ladder(spacing, value, round_off));
+      result.push_back(metric.ladder == LadderKind::error ? error_ladder(spacing, value, round_off)
+                                                          : value_ladder(spacing, value, round_off));
       result.back().smoothing_ratio = spec_.smoothing_ratio[ratio];
     }
     return result;
@@ -139,7 +142,8 @@ class Judge {
     MetricResult result;
     result.reference = metric.reference;
     result.standard_uncertainty = metric.standard_uncertainty;
-    const auto of = std::find_if(spec_.metrics.begin(), spec_.metrics.end(), [&](const MetricSpec& m) { return m.name == metric.observed_order_of; });
+    const auto of = std::find_if(spec_.metrics.begin(), spec_.metrics.end(),
+                                 [&](const MetricSpec& m) { return m.name == metric.observed_order_of; });
     if (of == spec_.metrics.end()) {
       result.reason = fmt::format("the order of {}, which is no metric of this case", metric.observed_order_of);
       return result;
@@ -150,8 +154,9 @@ class Judge {
       return result;
     }
     const std::vector<Ladder>& ladders = measured[static_cast<std::size_t>(of - spec_.metrics.begin())].ladders;
-    const auto ladder = std::find_if(ladders.begin(), ladders.end(),
-                                     [&](const Ladder& l) { return l.smoothing_ratio == spec_.smoothing_ratio[metric.ratio_index]; });
+    const auto ladder = std::find_if(ladders.begin(), ladders.end(), [&](const Ladder& l) {
+      return l.smoothing_ratio == spec_.smoothing_ratio[metric.ratio_index];
+    });
     if (ladder == ladders.end()) {
       result.reason = fmt::format("{} has no ladder at this h/dx", metric.observed_order_of);
       return result;
@@ -199,21 +204,29 @@ class Judge {
   // Names that the code measures and the case file does not know.
   std::string left_over() const {
     for (const Rung& rung : rungs_)
-      for (const auto& [measured, measurement] : rung.measurements) {
-        const auto known = std::find_if(spec_.metrics.begin(), spec_.metrics.end(), [&](const MetricSpec& m) { return m.name == measured; });
-        if (known == spec_.metrics.end()) return fmt::format("the code measures '{}', which the case file does not name", measured);
-        if (!known->observed_order_of.empty()) return fmt::format("the code measures '{}', which is an observed order and no measurement", measured);
+      for (const auto& entry : rung.measurements) {
+        const std::string& measured = entry.first;
+        const auto known =
+            std::find_if(spec_.metrics.begin(), spec_.metrics.end(), [&](const MetricSpec& m) { return m.name == measured; });
+        if (known == spec_.metrics.end())
+          return fmt::format("the code measures '{}', which the case file does not name", measured);
+        if (!known->observed_order_of.empty())
+          return fmt::format("the code measures '{}', which is an observed order and no measurement", measured);
       }
     return {};
   }
 
   void sum_up(CaseVerdict& result) const {
     const auto first = [&](Verdict verdict) {
-      const auto it = std::find_if(result.metrics.begin(), result.metrics.end(), [&](const MetricResult& m) { return m.verdict == verdict; });
-      return it == result.metrics.end() ? std::string() : fmt::format("{}: {}", spec_.metrics[static_cast<std::size_t>(it - result.metrics.begin())].name, it->reason);
+      const auto it =
+          std::find_if(result.metrics.begin(), result.metrics.end(), [&](const MetricResult& m) { return m.verdict == verdict; });
+      return it == result.metrics.end()
+                 ? std::string()
+                 : fmt::format("{}: {}", spec_.metrics[static_cast<std::size_t>(it - result.metrics.begin())].name, it->reason);
     };
     const auto any = [&](Verdict verdict) {
-      return std::any_of(result.metrics.begin(), result.metrics.end(), [&](const MetricResult& m) { return m.verdict == verdict; });
+      return std::any_of(result.metrics.begin(), result.metrics.end(),
+                         [&](const MetricResult& m) { return m.verdict == verdict; });
     };
     result.verdict = Verdict::error;
     if (spec_.metrics.empty()) {

@@ -20,7 +20,9 @@ struct Place {
 // Where every node below a table stands, by its path in that table: "metric[2].band".
 using Places = std::map<std::string, Place, std::less<>>;
 
-std::string join(std::string_view path, std::string_view key) { return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key); }
+std::string join(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
 
 void record_places(const toml::node& node, const std::string& path, const std::string& file, Places& places) {
   places[path] = {file, static_cast<int>(node.source().begin.line)};
@@ -53,7 +55,8 @@ std::string written(const toml::node& node) {
     return "[" + inner + "]";
   }
   if (const auto* table = node.as_table()) {
-    for (const auto& [key, value] : *table) inner += fmt::format("{}{} = {}", inner.empty() ? "" : ", ", key.str(), written(value));
+    for (const auto& [key, value] : *table)
+      inner += fmt::format("{}{} = {}", inner.empty() ? "" : ", ", key.str(), written(value));
     return inner.empty() ? "{}" : "{ " + inner + " }";
   }
   std::ostringstream out;
@@ -65,21 +68,6 @@ std::string shown(const toml::node& node) {
   std::string text = written(node);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
@@ -102,32 +90,6 @@ constexpr std::string_view unit_example(Dimension d) {
 }
 
 }  // namespace
-
-std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : known)
-    if (const std::size_t distance = edit_distance(word, candidate); distance < least) {
-      least = distance;
-      best = candidate;
-    }
-  return best;
-}
-
-InputError::InputError(std::string_view file, int line, std::string_view key, std::string_view message)
-    : std::runtime_error(fmt::format("{}{}: {}{}{}", file, line > 0 ? fmt::format(":{}", line) : "", key, key.empty() ? "" : ": ", message)) {}
-
-bool Range::contains(double x) const { return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high); }
-
-std::string Range::words() const {
-  if (std::isinf(low) && std::isinf(high)) return low_open || high_open ? "finite" : "a number";
-  if (std::isinf(high)) {
-    if (low == 0.0) return low_open ? "positive" : "zero or positive";
-    return fmt::format("{} {:g}", low_open ? "greater than" : "at least", low);
-  }
-  if (std::isinf(low)) return fmt::format("{} {:g}", high_open ? "less than" : "at most", high);
-  return fmt::format("between {:g}{} and {:g}{}", low, low_open ? " (excluded)" : "", high, high_open ? " (excluded)" : "");
-}
 
 struct Parameters::Node {
   toml::table table;
@@ -176,7 +138,8 @@ struct Parameters::Node {
     const auto unit = parse_unit(*symbol);
     if (!unit) fail(unit_key, fmt::format("found \"{}\", which is no unit that furrow knows, expected {}", *symbol, expected));
     if (unit->dimension != dimension)
-      fail(unit_key, fmt::format("found \"{}\", which is of dimension {}, expected {}", *symbol, si_symbol(unit->dimension), expected));
+      fail(unit_key,
+           fmt::format("found \"{}\", which is of dimension {}, expected {}", *symbol, si_symbol(unit->dimension), expected));
     return *unit;
   }
   static std::string quantity_words(Dimension dimension, Range allowed, bool list) {
@@ -202,7 +165,8 @@ Parameters Parameters::parse(std::string_view text, std::string file) {
 Parameters Parameters::read(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::exists(file, none)) throw InputError(file.string(), 0, "", "found no such file, expected a TOML file");
-  if (!std::filesystem::is_regular_file(file, none)) throw InputError(file.string(), 0, "", "found no regular file, expected a TOML file");
+  if (!std::filesystem::is_regular_file(file, none))
+    throw InputError(file.string(), 0, "", "found no regular file, expected a TOML file");
   std::ifstream in(file);
   std::ostringstream text;
   if (!(text << in.rdbuf()) && std::filesystem::file_size(file, none) > 0)
@@ -279,7 +243,8 @@ std::string Parameters::choice(std::string_view key, const std::vector<std::stri
   return *std::move(value);
 }
 
-std::string Parameters::choice_or(std::string_view key, std::string_view otherwise, const std::vector<std::string>& allowed) const {
+std::string Parameters::choice_or(std::string_view key, std::string_view otherwise,
+                                  const std::vector<std::string>& allowed) const {
   return has(key) ? choice(key, allowed) : std::string(otherwise);
 }
 
@@ -290,7 +255,8 @@ std::vector<double> Parameters::numbers(std::string_view key, Range allowed) con
   if (!array) node_->wrong(key, node, expected);
   std::vector<double> result;
   for (const toml::node& entry : *array)
-    result.push_back(node_->number_in(fmt::format("{}[{}]", key, result.size()), entry, allowed, fmt::format("a number, {}", allowed.words())));
+    result.push_back(node_->number_in(fmt::format("{}[{}]", key, result.size()), entry, allowed,
+                                      fmt::format("a number, {}", allowed.words())));
   return result;
 }
 
@@ -432,8 +398,9 @@ void Parameters::check_all_used() const {
   for (const auto& [key, value] : node_->table) {
     if (node_->asked.contains(key.str())) continue;
     const std::string nearest = nearest_word(key.str(), known);
-    node_->fail(key.str(), fmt::format("unknown key{}; known here: {}", nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
-                                       known.empty() ? "none" : joined(known, ", ")));
+    node_->fail(key.str(),
+                fmt::format("unknown key{}; known here: {}", nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
+                            known.empty() ? "none" : joined(known, ", ")));
   }
   for (const auto& [key, below] : node_->tables) Parameters(below).check_all_used();
 }
@@ -463,7 +430,8 @@ std::pair<toml::table*, std::string_view> descend(toml::table& root, std::string
     const std::string_view key = rest.substr(0, dot);
     toml::node* below = table->get(key);
     if (!below) below = &table->insert_or_assign(key, toml::table{}).first->second;
-    if (!below->is_table()) throw InputError(origin, 0, path, fmt::format("found '{}', which is no table here, expected the path of a key", key));
+    if (!below->is_table())
+      throw InputError(origin, 0, path, fmt::format("found '{}', which is no table here, expected the path of a key", key));
     table = below->as_table();
     rest.remove_prefix(dot + 1);
   }

@@ -87,7 +87,8 @@ class Parameters {
   int line(std::string_view key) const;         ///< where a key stands
   [[noreturn]] void fail(std::string_view key, std::string_view message) const;   ///< an InputError at this key
 
-  /// Throws for the first key, in this table or those asked for below it, that was never asked for; suggests the nearest known key.
+  /// Throws for the first key, in this table or those asked for below it, that was never asked for; suggests the nearest
+  /// known key.
   void check_all_used() const;
 
   /// The same table with a fresh record of used keys, to be changed by the two functions below.

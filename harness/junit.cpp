@@ -27,8 +27,8 @@ std::string message(const Json& metric) {
   std::string text = metric.value("reason", "");
   if (!metric["band"].is_null())
     text += fmt::format("{}error {} ({}), band [{}, {}], value {} {}", text.empty() ? "" : "; ", shown(metric["error"]),
-                        metric["norm"].get<std::string>(), shown(metric["band"][0]), shown(metric["band"][1]), shown(metric["value"]),
-                        metric["unit"].get<std::string>());
+                        metric["norm"].get<std::string>(), shown(metric["band"][0]), shown(metric["band"][1]),
+                        shown(metric["value"]), metric["unit"].get<std::string>());
   return escaped(text);
 }
 
@@ -67,8 +67,9 @@ std::string junit_xml(const std::vector<Json>& results) {
                            escaped(result.value("reason", "")));
     }
     const double wall = result["cost"]["wall_s"];
-    suites += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n{}  </testsuite>\n",
-                          id, suite_tests, suite_failures, suite_errors, suite_skipped, wall, cases);
+    suites += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n{}  </testsuite>\n",
+        id, suite_tests, suite_failures, suite_errors, suite_skipped, wall, cases);
     tests += suite_tests;
     failures += suite_failures;
     errors += suite_errors;

@@ -1,7 +1,7 @@
 // Ladders: how a number behaves while the spacing falls at fixed h/dx. An order is never given without the state of its ladder.
 //
-// SPH has two resolutions, h and dx/h. At fixed h/dx the error falls as h^2 and then stands still, because the quadrature error of
-// the particle sums depends on dx/h alone (Quinlan, Basa & Lastiwka 2006); so each h/dx has a ladder of its own.
+// SPH has two resolutions, h and dx/h. At fixed h/dx the error falls as h^2 and then stands still, because the quadrature error
+// of the particle sums depends on dx/h alone (Quinlan, Basa & Lastiwka 2006); so each h/dx has a ladder of its own.
 #pragma once
 
 #include <limits>
@@ -10,11 +10,12 @@
 
 namespace furrow {
 
-/// Local order: log(e_i/e_(i+1)) / log(dx_i/dx_(i+1)) between neighbouring rungs. States of a ladder of errors, the first that holds:
+/// Local order: log(e_i/e_(i+1)) / log(dx_i/dx_(i+1)) between neighbouring rungs. States of a ladder of errors, the first that
+/// holds:
 ///   undetermined  fewer than three rungs, a number that is not finite, or a rung other than the finest at round-off
 ///   round-off     the finest error is at or below the round-off floor
-///   plateau       every local order is below 0.25 in magnitude; or local orders of at least half the largest one (which is 0.5 or
-///                 more) are followed, up to the finest rung, by local orders below half of it in magnitude
+///   plateau       every local order is below 0.25 in magnitude; or local orders of at least half the largest one (which is 0.5
+///                 or more) are followed, up to the finest rung, by local orders below half of it in magnitude
 ///   diverging     the fitted order is below -0.1 and so is the local order at the finest rung
 ///   oscillatory   local orders of both signs
 ///   asymptotic    every local order lies within 0.3 of the fitted one, and that is positive
@@ -40,7 +41,7 @@ struct Ladder {
   std::vector<double> spacing;          ///< m, coarse to fine
   std::vector<double> value;            ///< magnitudes of errors, or values
   double order = none;                  ///< observed order; on a plateau that of the falling part
-  double order_stderr = none;           ///< its standard error; none when the fit is exact (two or three unknowns from as many rungs)
+  double order_stderr = none;   ///< its standard error; none when the fit is exact (two or three unknowns from as many rungs)
   LadderState state = LadderState::undetermined;
   double gci = none;                    ///< grid convergence index: numerical uncertainty of the finest value, relative to it
   double extrapolated = none;           ///< f0

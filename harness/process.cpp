@@ -23,7 +23,8 @@ volatile std::sig_atomic_t interrupt_flag = 0;
 void on_interrupt(int) { interrupt_flag = 1; }
 void on_child(int) {}   // only there so that poll() wakes up
 
-[[noreturn]] void become(const std::vector<char*>& arguments, const std::vector<char*>& environment, int log, int pipe, pid_t parent) {
+[[noreturn]] void become(const std::vector<char*>& arguments, const std::vector<char*>& environment, int log, int pipe,
+                         pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);   // nothing runs on when the testbed itself is killed
   if (getppid() != parent) _exit(127);
@@ -68,10 +69,12 @@ void catch_interrupts() {
 
 bool interrupted() { return interrupt_flag != 0; }
 
-Child::Child(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& environment, const std::filesystem::path& log)
+Child::Child(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& environment,
+             const std::filesystem::path& log)
     : start_(std::chrono::steady_clock::now()) {
   const int log_file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (log_file < 0) throw std::runtime_error(fmt::format("{}: cannot be opened for writing: {}", log.string(), std::strerror(errno)));
+  if (log_file < 0)
+    throw std::runtime_error(fmt::format("{}: cannot be opened for writing: {}", log.string(), std::strerror(errno)));
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
     ::close(log_file);

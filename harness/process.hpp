@@ -20,7 +20,8 @@ bool interrupted();
 class Child {
  public:
   /// Starts `arguments` (the first is the program's path). Throws std::runtime_error.
-  Child(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& environment, const std::filesystem::path& log);
+  Child(const std::vector<std::string>& arguments, const std::map<std::string, std::string>& environment,
+        const std::filesystem::path& log);
   ~Child();   ///< kills what still runs
   Child(Child&& other) noexcept;
   Child(const Child&) = delete;

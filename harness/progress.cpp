@@ -38,7 +38,11 @@ std::string duration_words(double seconds) {
 }
 
 Progress::Progress(std::map<std::string, std::optional<double>> expected, int jobs, bool quiet)
-    : waiting_(std::move(expected)), total_(waiting_.size()), jobs_(std::max(1, jobs)), quiet_(quiet), terminal_(isatty(STDOUT_FILENO) == 1) {}
+    : waiting_(std::move(expected)),
+      total_(waiting_.size()),
+      jobs_(std::max(1, jobs)),
+      quiet_(quiet),
+      terminal_(isatty(STDOUT_FILENO) == 1) {}
 
 Progress::~Progress() { clear(); }
 
@@ -87,10 +91,13 @@ std::string Progress::bar() const {
   constexpr std::size_t cells = 20;
   double done = static_cast<double>(done_);
   for (const auto& [id, running] : running_) done += fraction(running.progress);
-  const auto filled = static_cast<std::size_t>(std::lround(static_cast<double>(cells) * done / static_cast<double>(std::max<std::size_t>(1, total_))));
-  std::string text = fmt::format("[{}{}] {}/{}", std::string(std::min(filled, cells), '#'), std::string(cells - std::min(filled, cells), '.'), done_, total_);
+  const auto filled = static_cast<std::size_t>(
+      std::lround(static_cast<double>(cells) * done / static_cast<double>(std::max<std::size_t>(1, total_))));
+  std::string text = fmt::format("[{}{}] {}/{}", std::string(std::min(filled, cells), '#'),
+                                 std::string(cells - std::min(filled, cells), '.'), done_, total_);
   if (!running_.empty()) {
-    const auto longest = std::min_element(running_.begin(), running_.end(), [](const auto& a, const auto& b) { return a.second.start < b.second.start; });
+    const auto longest = std::min_element(running_.begin(), running_.end(),
+                                          [](const auto& a, const auto& b) { return a.second.start < b.second.start; });
     const CaseProgress& p = longest->second.progress;
     text += "  " + longest->first;
     if (p.rungs > 1) text += fmt::format(" ({} of {})", p.rung + 1, p.rungs);

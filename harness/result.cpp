@@ -42,7 +42,9 @@ Json metric_json(const CaseSpec& spec, const MetricSpec& metric, const MetricRes
             {"value", number(result.value)},
             {"class", metric.reference_class},
             {"reference",
-             {{"value", number(result.reference)}, {"standard_uncertainty", number(result.standard_uncertainty)}, {"source", metric.source}}},
+             {{"value", number(result.reference)},
+              {"standard_uncertainty", number(result.standard_uncertainty)},
+              {"source", metric.source}}},
             {"error", number(result.error)},
             {"norm", metric.norm_words},
             {"band", metric.band ? numbers({metric.band->low, metric.band->high}) : Json(nullptr)}};
@@ -75,7 +77,9 @@ Json table_json(const Table& table) {
 }
 
 Json figure_json(const Figure& figure) {
-  const auto axis = [](const Column& column, bool log) { return Json{{"label", column.label}, {"unit", column.unit}, {"log", log}}; };
+  const auto axis = [](const Column& column, bool log) {
+    return Json{{"label", column.label}, {"unit", column.unit}, {"log", log}};
+  };
   Json json{{"name", figure.name},   {"title", figure.title},           {"caption", figure.caption},
             {"kind", figure.kind},   {"x", axis(figure.x, figure.log_x)}, {"y", axis(figure.y, figure.log_y)}};
   if (!figure.colour.label.empty()) json["colour"] = axis(figure.colour, false);
@@ -105,7 +109,8 @@ Json result_json(const CaseSpec& spec, const CaseVerdict& verdict, const Shown& 
     json["resolution"] = {{"spacing", spacing}, {"unit", spec.spacing_unit}, {"h_over_dx", spec.smoothing_ratio}};
   }
   json["metrics"] = Json::array();
-  for (std::size_t i = 0; i < spec.metrics.size(); ++i) json["metrics"].push_back(metric_json(spec, spec.metrics[i], verdict.metrics[i]));
+  for (std::size_t i = 0; i < spec.metrics.size(); ++i)
+    json["metrics"].push_back(metric_json(spec, spec.metrics[i], verdict.metrics[i]));
   json["tables"] = Json::array();
   for (const Table& table : shown.tables) json["tables"].push_back(table_json(table));
   json["figures"] = Json::array();

@@ -25,21 +25,27 @@ fs::path prepared_folder(const RunOptions& options, const Json& provenance) {
   fs::path folder = options.folder;
   if (folder.empty() && options.resume) {
     folder = project_root() / "runs/latest";
-    if (!fs::exists(folder)) throw InputError("--resume", 0, "", "found no earlier run in runs/latest, expected one, or --out DIR");
+    if (!fs::exists(folder))
+      throw InputError("--resume", 0, "", "found no earlier run in runs/latest, expected one, or --out DIR");
     folder = fs::canonical(folder);
   }
   if (folder.empty()) folder = project_root() / "runs" / fmt::format("{}-{}", time_for_names(), short_commit(provenance));
   folder = fs::absolute(folder).lexically_normal();
   std::error_code error;
   if (fs::exists(folder / "run.json", error) && !options.resume && !options.replace)
-    throw InputError("--out " + folder.string(), 0, "", "found an earlier run there, expected an empty folder, or --resume to go on with it, or --replace");
+    throw InputError("--out " + folder.string(), 0, "",
+                     "found an earlier run there, expected an empty folder, or --resume to go on with it, or --replace");
   fs::create_directories(folder, error);
-  if (error) throw InputError("--out " + folder.string(), 0, "", fmt::format("found {}, expected a folder that can be made", error.message()));
+  if (error)
+    throw InputError("--out " + folder.string(), 0, "",
+                     fmt::format("found {}, expected a folder that can be made", error.message()));
   try {
-    write_whole(folder / ".writable", "");   // asking for permissions is not enough: root may everything, and a read-only mount nobody
+    write_whole(folder / ".writable",
+                "");   // asking for permissions is not enough: root may everything, and a read-only mount nobody
     fs::remove(folder / ".writable");
   } catch (const std::runtime_error& reason) {
-    throw InputError("--out " + folder.string(), 0, "", fmt::format("found a folder that cannot be written ({}), expected one that can", reason.what()));
+    throw InputError("--out " + folder.string(), 0, "",
+                     fmt::format("found a folder that cannot be written ({}), expected one that can", reason.what()));
   }
   return folder;
 }
@@ -87,7 +93,10 @@ struct RunningCase {
 class Runner {
  public:
   Runner(const std::vector<CaseSpec>& cases, const RunOptions& options)
-      : cases_(cases), options_(options), provenance_(provenance(options.threads)), folder_(prepared_folder(options, provenance_)) {}
+      : cases_(cases),
+        options_(options),
+        provenance_(provenance(options.threads)),
+        folder_(prepared_folder(options, provenance_)) {}
 
   int run() {
     catch_interrupts();
@@ -126,7 +135,8 @@ class Runner {
       waiting.push_back(&spec);
     }
     const auto at_most = [&](const CaseSpec* spec) { return expected[spec->id].value_or(spec->time_limit); };
-    std::stable_sort(waiting.begin(), waiting.end(), [&](const CaseSpec* a, const CaseSpec* b) { return at_most(a) > at_most(b); });
+    std::stable_sort(waiting.begin(), waiting.end(),
+                     [&](const CaseSpec* a, const CaseSpec* b) { return at_most(a) > at_most(b); });
 
     Progress progress(expected, options_.jobs, options_.quiet);
     std::deque<RunningCase> running;
@@ -163,8 +173,9 @@ class Runner {
     const fs::path place = folder_ / spec.id;
     fs::create_directories(place);
     const std::string threads = std::to_string(options_.threads);
-    return Child({fs::read_symlink("/proc/self/exe").string(), "run-case", folder_.string(), fs::absolute(spec.file).string(), spec.id},
-                 {{"OMP_NUM_THREADS", threads}}, place / "log.txt");
+    return Child(
+        {fs::read_symlink("/proc/self/exe").string(), "run-case", folder_.string(), fs::absolute(spec.file).string(), spec.id},
+        {{"OMP_NUM_THREADS", threads}}, place / "log.txt");
   }
 
   // The result that the case's process has left; when it has left none, an error result that says how it ended.
@@ -193,8 +204,10 @@ class Runner {
     Json ids = Json::array(), files = Json::array(), seeds = Json::object();
     for (const CaseSpec& spec : cases_) {
       ids.push_back(spec.id);
-      if (const std::string file = spec.file.string(); std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
-      if (const Json parameters = Json::parse(spec.parameters_json); parameters.contains("seed")) seeds[spec.id] = parameters["seed"];
+      if (const std::string file = spec.file.string(); std::find(files.begin(), files.end(), file) == files.end())
+        files.push_back(file);
+      if (const Json parameters = Json::parse(spec.parameters_json); parameters.contains("seed"))
+        seeds[spec.id] = parameters["seed"];
     }
     Json run{{"schema", 1}, {"provenance", provenance_}, {"command", options_.command}};
     if (!options_.tier.empty()) run["tier"] = options_.tier;
@@ -218,8 +231,9 @@ class Runner {
 
   void summary(double wall, bool reported) {
     const int done = counts_["pass"] + counts_["fail"] + counts_["error"] + counts_["known-gap"];
-    fmt::print("{} of {} cases in {}: {} pass, {} fail, {} error, {} known-gap{}\n", done, cases_.size(), duration_words(wall), counts_["pass"],
-               counts_["fail"], counts_["error"], counts_["known-gap"], kept_ > 0 ? fmt::format(" ({} kept from before)", kept_) : "");
+    fmt::print("{} of {} cases in {}: {} pass, {} fail, {} error, {} known-gap{}\n", done, cases_.size(), duration_words(wall),
+               counts_["pass"], counts_["fail"], counts_["error"], counts_["known-gap"],
+               kept_ > 0 ? fmt::format(" ({} kept from before)", kept_) : "");
     if (options_.report && reported) fmt::print("report: {}\n", (folder_ / "report/index.html").string());
     else fmt::print("results: {}\n", folder_.string());
   }

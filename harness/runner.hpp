@@ -26,6 +26,7 @@ int run_cases(const std::vector<CaseSpec>& cases, const RunOptions& options);
 bool make_report(const std::filesystem::path& folder);
 
 /// The hidden command of a case's own process: run-case RUNDIR CASEFILE ID.
-int run_one(const std::vector<Family>& families, const std::filesystem::path& run_folder, const std::filesystem::path& case_file, const std::string& id);
+int run_one(const std::vector<Family>& families, const std::filesystem::path& run_folder, const std::filesystem::path& case_file,
+            const std::string& id);
 
 }  // namespace furrow

@@ -1,7 +1,7 @@
 """python3 tests/summary.py NAME=JUNIT.XML=EXITCODE...: counts the test cases of several JUnit files.
 
-The last line is "N passed, N failed". A file that is missing or broken, or a run that ended red without naming a failure, counts as
-one failure: nothing is green by silence.
+The last line is "N passed, N failed". A file that is missing or broken, or a run that ended red without naming a failure,
+counts as one failure: nothing is green by silence.
 """
 
 import sys

@@ -89,14 +89,16 @@ def test_unknown_key_names_its_line(case_file):
 
 
 def test_unknown_key_at_the_top_and_in_resolution(case_file):
-    refused(case_file('family = "misbehaving"', 'family = "misbehaving"\nfamly = 1')[0], "famly: unknown key, did you mean 'family'?")
+    refused(case_file('family = "misbehaving"', 'family = "misbehaving"\nfamly = 1')[0],
+            "famly: unknown key, did you mean 'family'?")
     refused(case_file("h_over_dx = [1.2, 1.5]", "h_over_dx = [1.2, 1.5], h_dx = 1")[0], "resolution.h_dx: unknown key")
 
 
 @pytest.mark.parametrize("old, new, words", [
     ('value = [4, 2, 1], unit = "mm"', 'value = [4, 2, 1], unit = "MPa"',
      ("resolution.spacing.unit", 'found "MPa"', "dimension Pa", 'expected a unit of dimension m, such as "mm"')),
-    ('value = [4, 2, 1], unit = "mm"', 'value = [4, 2, 1], unit = "furlong"', ("resolution.spacing.unit", '"furlong"', "no unit that furrow knows")),
+    ('value = [4, 2, 1], unit = "mm"', 'value = [4, 2, 1], unit = "furlong"',
+     ("resolution.spacing.unit", '"furlong"', "no unit that furrow knows")),
     ('value = [4, 2, 1], unit = "mm"', "value = [4, 2, 1]", ("resolution.spacing", "found no unit", 'such as "mm"')),
     ('unit = "mm"\nclass', 'unit = "furlong"\nclass', ("metric[0].unit", '"furlong"', "expected a unit that furrow knows")),
 ], ids=["dimension", "unknown", "missing", "metric"])
@@ -110,7 +112,8 @@ def test_wrong_unit(case_file, old, new, words):
     ("value = 1.0, s", 'value = "1.0", s', ('reference.value: found "1.0", expected one of "computed"',)),
     ("band = [-0.1, 0.1]", "band = 0.1", ("metric[0].band: found 0.1, expected a list of numbers",)),
     ("band = [-0.1, 0.1]", "band = [-0.1, nan]", ("metric[0].band[1]: found nan, expected a number",)),
-    ("h_over_dx = [1.2, 1.5]", 'h_over_dx = ["1.2"]', ('resolution.h_over_dx[0]: found "1.2", expected a number, between 0.8 and 4',)),
+    ("h_over_dx = [1.2, 1.5]", 'h_over_dx = ["1.2"]',
+     ('resolution.h_over_dx[0]: found "1.2", expected a number, between 0.8 and 4',)),
     ("[[case]]", "[case]", ("case: found ", "expected an array of tables, [[case]]")),
 ], ids=["text", "number", "list", "nan", "list of texts", "table"])
 def test_wrong_type(case_file, old, new, words):
@@ -121,7 +124,8 @@ def test_wrong_type(case_file, old, new, words):
 
 
 def test_missing_file(tmp_path):
-    refused(run(MISBEHAVING, "run", "--case-file", tmp_path / "none.toml"), str(tmp_path / "none.toml"), "found no such file, expected a TOML file")
+    refused(run(MISBEHAVING, "run", "--case-file", tmp_path / "none.toml"),
+            str(tmp_path / "none.toml"), "found no such file, expected a TOML file")
 
 
 def test_a_folder_is_no_case_file(tmp_path):
@@ -163,14 +167,17 @@ def test_unknown_family_problem_and_word(case_file):
 
 def test_wrong_words_in_set(case_file):
     same = ("Round-off", "Round-off still")
-    refused(case_file(*same, "--set", "parameters.hwo=good")[0], "--set parameters.hwo=good: case[0].parameters.hwo: unknown key, did you mean 'how'?")
-    refused(case_file(*same, "--set", "resolution.h_over_dx=[0.5]")[0], "--set resolution.h_over_dx=[0.5]: ", "found 0.5", "between 0.8 and 4")
+    refused(case_file(*same, "--set", "parameters.hwo=good")[0],
+            "--set parameters.hwo=good: case[0].parameters.hwo: unknown key, did you mean 'how'?")
+    refused(case_file(*same, "--set", "resolution.h_over_dx=[0.5]")[0],
+            "--set resolution.h_over_dx=[0.5]: ", "found 0.5", "between 0.8 and 4")
     refused(case_file(*same, "--set", "band=[0,1]")[0], "expected a key below parameters or resolution, or time_limit")
     refused(case_file(*same, "--set", "nonsense")[0], "expected KEY=VALUE")
 
 
 def test_unknown_case():
-    refused(run(FURROW, "run", "kernel/continuous-cubic-spine-2d"), "kernel/continuous-cubic-spine-2d: found no case of this name",
+    refused(run(FURROW, "run", "kernel/continuous-cubic-spine-2d"),
+            "kernel/continuous-cubic-spine-2d: found no case of this name",
             "did you mean 'kernel/continuous-cubic-spline-2d'?")
     refused(run(FURROW, "matrix", "--only", "kernel/nothing*"), "found no case in tier quick that matches")
     refused(run(FURROW, "list", "--family", "kernels"), "found no family of this name, did you mean 'kernel'?")
@@ -185,14 +192,17 @@ def test_wrong_usage_is_exit_code_2_too():
 
 def test_output_folder_below_a_file(tmp_path):
     (tmp_path / "file").write_text("earlier\n")
-    refused(run(MISBEHAVING, "run", "misbehaving/good", "--out", tmp_path / "file/run"), "--out ", "Not a directory", "expected a folder that can be made")
+    refused(run(MISBEHAVING, "run", "misbehaving/good", "--out", tmp_path / "file/run"),
+            "--out ", "Not a directory", "expected a folder that can be made")
     assert (tmp_path / "file").read_text() == "earlier\n"
 
 
 def test_output_folder_that_is_read_only():
     """/proc cannot be written by anybody, root included."""
-    refused(run(MISBEHAVING, "run", "misbehaving/good", "--out", "/proc/tty/run"), "--out /proc/tty/run", "expected a folder that can be made")
-    refused(run(MISBEHAVING, "run", "misbehaving/good", "--out", "/proc/tty"), "--out /proc/tty", "found a folder that cannot be written")
+    refused(run(MISBEHAVING, "run", "misbehaving/good", "--out", "/proc/tty/run"),
+            "--out /proc/tty/run", "expected a folder that can be made")
+    refused(run(MISBEHAVING, "run", "misbehaving/good", "--out", "/proc/tty"),
+            "--out /proc/tty", "found a folder that cannot be written")
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root may drop to another user")
@@ -202,7 +212,8 @@ def test_output_folder_of_somebody_else():
         pytest.skip("the project lies where no other user may read")
     with tempfile.TemporaryDirectory(dir="/tmp") as folder:
         os.chmod(folder, 0o555)
-        ended = subprocess.run([MISBEHAVING, "run", "misbehaving/good", "--out", folder], capture_output=True, text=True, **nobody)
+        ended = subprocess.run([MISBEHAVING, "run", "misbehaving/good", "--out", folder], capture_output=True, text=True,
+                               **nobody)
         refused(ended, f"--out {folder}: found a folder that cannot be written", "Permission denied", "expected one that can")
 
 

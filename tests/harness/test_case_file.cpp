@@ -22,7 +22,8 @@ Problem slab(const Parameters& p) {
 struct Sample {
   std::vector<Family> families{Family("slab", "nowhere", "a slab").add("slab", slab)};
   Bibliography bibliography{{"book", {"book", "A book", ""}}};
-  std::filesystem::path file = std::filesystem::temp_directory_path() / ("furrow-case-file-" + std::to_string(getpid()) + ".toml");
+  std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("furrow-case-file-" + std::to_string(getpid()) + ".toml");
 
   ~Sample() { std::filesystem::remove(file); }
 
@@ -113,12 +114,14 @@ TEST_CASE("A ladder goes from coarse to fine, and the gated rung is found in it"
 TEST_CASE("A metric may be there for some parameter values only", "[case_file]") {
   Sample sample;
   for (const CaseSpec& spec : sample.read(text)) CHECK(spec.metrics.size() == (spec.id.ends_with("1d") ? 1u : 2u));
-  CHECK(sample.message(replaced(text, "when = { dimension", "when = { height")).find("metric[1].when.height: ") != std::string::npos);
+  CHECK(sample.message(replaced(text, "when = { dimension", "when = { height")).find("metric[1].when.height: ") !=
+        std::string::npos);
 }
 
 TEST_CASE("Overrides change the named cases only, win over the sweep, and are recorded", "[case_file]") {
   Sample sample;
-  const std::vector<CaseSpec> cases = sample.read(text, {{"parameters.kernel=wendland_c2", "resolution.h_over_dx=[1.2, 2.0]"}, {"slab/cubic-spline-1d"}});
+  const std::vector<CaseSpec> cases =
+      sample.read(text, {{"parameters.kernel=wendland_c2", "resolution.h_over_dx=[1.2, 2.0]"}, {"slab/cubic-spline-1d"}});
   int changed = 0;
   for (const CaseSpec& spec : cases) {
     const bool is_named = spec.id == "slab/cubic-spline-1d";
@@ -137,26 +140,37 @@ TEST_CASE("What a band or an order cannot be is refused", "[case_file]") {
   };
   contains(sample.message(replaced(text, "band = [1.8, 2.2]", "band = [1.8, inf]")), "found an open end, expected two numbers");
   contains(sample.message(replaced(text, "band = [0.0, inf]", "band = [1.0, 0.0]")), "expected the lower end first, [0, 1]");
-  contains(sample.message(replaced(text, "ladder = \"error\"\n", "")), "observed_order_of: found \"error\", expected a metric of this case that has a ladder");
-  contains(sample.message(replaced(text, "value = [1, 4, 2]", "value = [1, 4]")), "at.spacing: found a number that is not in the case's resolution");
-  contains(sample.message(replaced(text, "value = [1, 4, 2]", "value = [4, 2]")), "found a ladder of 2 spacings, expected at least three");
-  contains(sample.message(replaced(text, "norm = \"L2 relative\"", "norm = \"L3 relative\"")), "found \"L3 relative\", expected absolute, relative or value");
+  contains(sample.message(replaced(text, "ladder = \"error\"\n", "")),
+           "observed_order_of: found \"error\", expected a metric of this case that has a ladder");
+  contains(sample.message(replaced(text, "value = [1, 4, 2]", "value = [1, 4]")),
+           "at.spacing: found a number that is not in the case's resolution");
+  contains(sample.message(replaced(text, "value = [1, 4, 2]", "value = [4, 2]")),
+           "found a ladder of 2 spacings, expected at least three");
+  contains(sample.message(replaced(text, "norm = \"L2 relative\"", "norm = \"L3 relative\"")),
+           "found \"L3 relative\", expected absolute, relative or value");
   contains(sample.message(replaced(text, "value = 2.0, s", "value = 0.0, s")), "the norm is relative to it");
   contains(sample.message(replaced(text, "band = [0.0, inf]", "reported = true\nband = [0.0, inf]")), "expected one of the two");
 }
 
 TEST_CASE("Two cases of one name are refused, as is a key in sweep and parameters at once", "[case_file]") {
   Sample sample;
-  CHECK(sample.message(replaced(text, "{kernel}-{dimension}d", "{kernel}")).find("found a second case slab/cubic-spline") != std::string::npos);
-  CHECK(sample.message(replaced(text, "parameters = {", "parameters = { kernel = \"cubic_spline\",")).find("sweep.kernel: found in parameters too") != std::string::npos);
-  CHECK(sample.message(replaced(text, "{dimension}d", "{dim}d")).find("name: found {dim}, expected a key of the sweep in braces") != std::string::npos);
+  CHECK(sample.message(replaced(text, "{kernel}-{dimension}d", "{kernel}")).find("found a second case slab/cubic-spline") !=
+        std::string::npos);
+  CHECK(sample.message(replaced(text, "parameters = {", "parameters = { kernel = \"cubic_spline\","))
+            .find("sweep.kernel: found in parameters too") != std::string::npos);
+  CHECK(
+      sample.message(replaced(text, "{dimension}d", "{dim}d")).find("name: found {dim}, expected a key of the sweep in braces") !=
+      std::string::npos);
 }
 
 TEST_CASE("A known gap needs a day, a later day and a cause", "[case_file]") {
   Sample sample;
   const auto with_gap = [&](const char* gap) { return sample.message(text + gap); };
   CHECK(with_gap("known_gap = { reason = \"r\", date = 2026-11-22, expires = 2027-05-22 }\n") == "no error");
-  CHECK(with_gap("known_gap = { reason = \"r\", date = 2026-11-22, expires = 2026-11-22 }\n").find("expected a later one") != std::string::npos);
-  CHECK(with_gap("known_gap = { reason = \"\", date = 2026-11-22, expires = 2027-05-22 }\n").find("expected the cause") != std::string::npos);
-  CHECK(with_gap("known_gap = { reason = \"r\", date = \"2026-11-22\", expires = 2027-05-22 }\n").find("expected a date without quotes") != std::string::npos);
+  CHECK(with_gap("known_gap = { reason = \"r\", date = 2026-11-22, expires = 2026-11-22 }\n").find("expected a later one") !=
+        std::string::npos);
+  CHECK(with_gap("known_gap = { reason = \"\", date = 2026-11-22, expires = 2027-05-22 }\n").find("expected the cause") !=
+        std::string::npos);
+  CHECK(with_gap("known_gap = { reason = \"r\", date = \"2026-11-22\", expires = 2027-05-22 }\n")
+            .find("expected a date without quotes") != std::string::npos);
 }

@@ -38,7 +38,8 @@ Rung one(const std::string& name, Measurement measurement) {
 }
 
 // A case of four spacings at one h/dx, and what it measured there.
-std::pair<CaseSpec, std::vector<Rung>> laddered(const std::vector<double>& errors, std::vector<LadderState> states = {LadderState::asymptotic}) {
+std::pair<CaseSpec, std::vector<Rung>> laddered(const std::vector<double>& errors,
+                                                std::vector<LadderState> states = {LadderState::asymptotic}) {
   MetricSpec error = metric("error", Norm::value, nan_value, {0.0, 1.0});
   error.unit = unit("1");
   error.ladder = LadderKind::error;
@@ -59,7 +60,9 @@ std::pair<CaseSpec, std::vector<Rung>> laddered(const std::vector<double>& error
   return {spec, rungs};
 }
 
-Verdict verdict_of(const MetricSpec& m, Measurement measured) { return judge(with({m}), {one(m.name, std::move(measured))}, today).metrics[0].verdict; }
+Verdict verdict_of(const MetricSpec& m, Measurement measured) {
+  return judge(with({m}), {one(m.name, std::move(measured))}, today).metrics[0].verdict;
+}
 
 }  // namespace
 
@@ -92,9 +95,12 @@ TEST_CASE("Units are converted; another dimension is an error", "[gate]") {
 }
 
 TEST_CASE("Norms: absolute, relative, and the value itself", "[gate]") {
-  CHECK(judge(with({metric("l", Norm::relative, 20.0, {-1, 1})}), {one("l", {21.0, "mm", {}, {}})}, today).metrics[0].error == Approx(0.05));
-  CHECK(judge(with({metric("l", Norm::absolute, 20.0, {-1, 1})}), {one("l", {21.0, "mm", {}, {}})}, today).metrics[0].error == Approx(1.0));
-  CHECK(judge(with({metric("l", Norm::value, 20.0, {-1, 1})}), {one("l", {21.0, "mm", {}, {}})}, today).metrics[0].error == Approx(21.0));
+  CHECK(judge(with({metric("l", Norm::relative, 20.0, {-1, 1})}), {one("l", {21.0, "mm", {}, {}})}, today).metrics[0].error ==
+        Approx(0.05));
+  CHECK(judge(with({metric("l", Norm::absolute, 20.0, {-1, 1})}), {one("l", {21.0, "mm", {}, {}})}, today).metrics[0].error ==
+        Approx(1.0));
+  CHECK(judge(with({metric("l", Norm::value, 20.0, {-1, 1})}), {one("l", {21.0, "mm", {}, {}})}, today).metrics[0].error ==
+        Approx(21.0));
 }
 
 TEST_CASE("A computed reference must be handed over, and only then", "[gate]") {

@@ -64,21 +64,33 @@ TEST_CASE("A mistake is named by file, line and key, with what was found and wha
   CHECK(message_of([&] { p.quantity("ratio", dimension::length, range::positive); }) ==
         "sample.toml:3: ratio: found 1.5, expected a number with unit, positive, as in { value = 2.5, unit = \"mm\" }");
   CHECK(message_of([&] { p.number("kernel"); }) == "sample.toml:4: kernel: found \"cubic_spline\", expected a number, finite");
-  CHECK(message_of([&] { p.number("ratio", {2.0, 4.0}); }) == "sample.toml:3: ratio: found 1.5, expected a number, between 2 and 4");
-  CHECK(message_of([&] { p.integer("ratio", 1, 3); }) == "sample.toml:3: ratio: found 1.5, expected a whole number between 1 and 3");
-  CHECK(message_of([&] { p.table("material").quantity("modulus", dimension::stress); }) ==
-        "sample.toml:9: material.modulus: found nothing, expected a number with unit, finite, as in { value = 2.5, unit = \"MPa\" }");
-  CHECK(message_of([&] { p.choice("kernel", {"quintic_spline", "cubic_splines"}); }) ==
-        "sample.toml:4: kernel: found \"cubic_spline\", expected one of \"quintic_spline\", \"cubic_splines\"; did you mean \"cubic_splines\"?");
+  CHECK(message_of([&] {
+          p.number("ratio", {2.0, 4.0});
+        }) == "sample.toml:3: ratio: found 1.5, expected a number, between 2 and 4");
+  CHECK(message_of([&] { p.integer("ratio", 1, 3); }) ==
+        "sample.toml:3: ratio: found 1.5, expected a whole number between 1 and 3");
+  CHECK(
+      message_of([&] { p.table("material").quantity("modulus", dimension::stress); }) ==
+      "sample.toml:9: material.modulus: found nothing, expected a number with unit, finite, as in "
+        "{ value = 2.5, unit = \"MPa\" }");
+  CHECK(
+      message_of([&] {
+        p.choice("kernel", {"quintic_spline", "cubic_splines"});
+      }) ==
+      "sample.toml:4: kernel: found \"cubic_spline\", expected one of \"quintic_spline\", \"cubic_splines\"; "
+        "did you mean \"cubic_splines\"?");
 }
 
 TEST_CASE("A unit is needed, known, and the only companion of a value", "[input]") {
-  const Parameters p = Parameters::parse("a = { value = 1 }\nb = { value = 1, unit = \"furlong\" }\nc = { value = 1, unit = \"m\", error = 1 }\n", "u.toml");
+  const Parameters p = Parameters::parse(
+      "a = { value = 1 }\nb = { value = 1, unit = \"furlong\" }\nc = { value = 1, unit = \"m\", error = 1 }\n", "u.toml");
   CHECK(message_of([&] { p.quantity("a", dimension::length); }) ==
         "u.toml:1: a: found no unit, expected a unit of dimension m, such as \"mm\"");
-  CHECK(message_of([&] { p.quantity("b", dimension::length); }) ==
-        "u.toml:2: b.unit: found \"furlong\", which is no unit that furrow knows, expected a unit of dimension m, such as \"mm\"");
-  CHECK(message_of([&] { p.quantity("c", dimension::length); }) == "u.toml:3: c.error: unknown key, expected value and unit only");
+  CHECK(
+      message_of([&] { p.quantity("b", dimension::length); }) ==
+      "u.toml:2: b.unit: found \"furlong\", which is no unit that furrow knows, expected a unit of dimension m, such as \"mm\"");
+  CHECK(message_of([&] { p.quantity("c", dimension::length); }) ==
+        "u.toml:3: c.error: unknown key, expected value and unit only");
 }
 
 TEST_CASE("NaN and infinity are no numbers unless the range holds them", "[input]") {
@@ -101,14 +113,16 @@ TEST_CASE("A key that nobody asked for is unknown, in nested tables too", "[inpu
   CHECK(message_of([&] { p.check_all_used(); }) == "k.toml:4: material.density: unknown key; known here: none");
   material.number("density");
   probes[0].text_or("name", "");
-  CHECK(message_of([&] { p.check_all_used(); }) == "k.toml:6: probe[0].nmae: unknown key, did you mean 'name'?; known here: name");
+  CHECK(message_of([&] { p.check_all_used(); }) ==
+        "k.toml:6: probe[0].nmae: unknown key, did you mean 'name'?; known here: name");
   probes[0].number("nmae");
   CHECK_NOTHROW(p.check_all_used());
 }
 
 TEST_CASE("A file that is not TOML, or not there, is named", "[input]") {
   CHECK(message_of([] { Parameters::parse("a = 1\nb = = 2\n", "bad.toml"); }).starts_with("bad.toml:2: not TOML: "));
-  CHECK(message_of([] { Parameters::read("/nowhere/case.toml"); }) == "/nowhere/case.toml: found no such file, expected a TOML file");
+  CHECK(message_of([] { Parameters::read("/nowhere/case.toml"); }) ==
+        "/nowhere/case.toml: found no such file, expected a TOML file");
 }
 
 TEST_CASE("Values taken over from a sweep or the command line keep the place they come from", "[input]") {

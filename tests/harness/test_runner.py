@@ -92,7 +92,8 @@ def test_quiet_prints_nothing(tmp_path):
 
 
 def test_resume_keeps_what_is_whole_and_runs_the_rest(tmp_path):
-    arguments = ["run", "misbehaving/good", "misbehaving/too-long", "misbehaving/aborts", "--no-report", "--out", tmp_path / "run"]
+    cases = ["misbehaving/good", "misbehaving/too-long", "misbehaving/aborts"]
+    arguments = ["run", *cases, "--no-report", "--out", tmp_path / "run"]
     run(MISBEHAVING, *arguments)
     good = tmp_path / "run/misbehaving/good/result.json"
     too_long = tmp_path / "run/misbehaving/too-long/result.json"
@@ -118,8 +119,9 @@ def test_an_earlier_run_is_not_overwritten_by_accident(tmp_path):
 
 def test_an_interrupt_stops_the_children_and_keeps_what_is_done(tmp_path):
     folder = tmp_path / "run"
-    process = subprocess.Popen([MISBEHAVING, "run", "misbehaving/good", "misbehaving/never-ends", "--jobs", "2", "--no-report", "--out", folder,
-                                "--set", "time_limit.value=60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([MISBEHAVING, "run", "misbehaving/good", "misbehaving/never-ends", "--jobs", "2", "--no-report",
+                                "--out", folder, "--set", "time_limit.value=60"],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     done = folder / "misbehaving/good/result.json"
     deadline = time.monotonic() + 20
     while not done.exists() and time.monotonic() < deadline:

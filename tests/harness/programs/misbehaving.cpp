@@ -1,4 +1,4 @@
-// A program like furrow itself with one family, whose problem ends in every way a problem should not: for the tests of the runner.
+// A program like furrow itself, whose one problem ends in every way a problem should not: for the tests of the runner.
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
