@@ -106,9 +106,10 @@ def _signs(text, kept=frozenset()):
     text = _greek(text.replace("\\", ""), kept)
     if "∫" not in text:   # dx is the particle spacing, but neither under an integral nor in a derivative
         text = re.sub(r"(?<!d[A-Za-z]/)(?<!d/)(?<![A-Za-z])dx(?![A-Za-z])", "Δx", text)
-    text = re.sub(r"(?<=[ (|,])-(?=[ \w(|])|^-(?=\w)", MINUS, text)
-    text = re.sub(r"(?<=\w)\'+", lambda m: "′" * len(m.group()), text)
-    return re.sub(r"<([A-Za-z](?:[_^]\w+)?)>", "⟨\\1⟩", text.replace("<=", "≤").replace(">=", "≥")).replace(" * ", " · ")
+    text = re.sub(r"(?<=[ (|,])-(?=[ \w(|∇∑])|^-(?=\w)", MINUS, text)
+    text = re.sub(r"(?<=\b[^\W\d_])'+(?![A-Za-z0-9])", lambda m: "′" * len(m.group()), text)
+    return re.sub(r"<((?:[∇∑] ?)?[A-Za-z](?:[_^]\w+)?)>", "⟨\\1⟩", text.replace("<=", "≤").replace(">=", "≥")).replace(" * ",
+                                                                                                                       " · ")
 
 
 def symbol(text):
@@ -130,20 +131,32 @@ def _upright(text):
     return Markup("").join(Markup("<b>{}</b>").format(piece) if i % 2 else escape(piece) for i, piece in enumerate(pieces))
 
 
-def norm(text):
-    """Linf relative -> L∞ relative."""
-    return re.sub(r"\bL(inf|1|2)\b", lambda m: {"inf": "L∞", "1": "L₁", "2": "L₂"}[m.group(1)], text)
+def _formulas(text, raised):
+    """Plain text with the signs of its formulas, and `raised` called with (base sign, exponent or index) for ^ and _."""
+    text = re.sub(r"\b(sum|int|grad)(?= [A-Za-z]\b)", lambda m: GREEK[m.group()], text)   # before a letter: no word of prose
+    text = re.sub(r"\bL_?(inf|1|2)\b", lambda m: {"inf": "L∞", "1": "L₁", "2": "L₂"}[m.group(1)], _signs(text, PROSE))
+    return re.sub(r"(?<=\S)(\^)(\{[^}]*\}|\([^()]*\)|[+-]?[^\W_]+)|(?<=\b[^\W_])(_)(\{[^}]*\}|[^\W_]{1,3}\b)",
+                  lambda m: raised(m.group(1) or m.group(3), (m.group(2) or m.group(4)).strip("{}")), text)
 
 
 def label(text):
-    """Plain text that may hold formulas, for figures and prose: h^2 -> h², h/dx -> h/Δx, c_0 -> c₀, sum V W -> ∑ V W."""
-    def raised(match):
-        table = SUPERSCRIPTS if match.group(1) == "^" else SUBSCRIPTS
-        inner = match.group(2).strip("{}")
-        return inner.translate(table) if all(ord(c) in table for c in inner) else match.group(1) + inner
-    text = re.sub(r"\b(sum|int|grad)(?= [A-Za-z]\b)", lambda m: GREEK[m.group()], text)   # before a letter: no word of prose
-    text = re.sub(r"(?<=\S)(\^)(\{[^}]*\}|\([^()]*\)|[+-]?[^\W_]+)", raised, _signs(norm(text), PROSE))
-    return re.sub(r"(?<=\b[^\W_])(_)(\{[^}]*\}|[^\W_]{1,3}\b)", raised, text)
+    """Plain text that may hold formulas, for figures: h^2 -> h², h/dx -> h/Δx, c_0 -> c₀, sum V W -> ∑ V W."""
+    def raised(sign, inner):
+        table = SUPERSCRIPTS if sign == "^" else SUBSCRIPTS
+        return inner.translate(table) if all(ord(c) in table for c in inner) else sign + inner
+    return _formulas(text, raised)
+
+
+def prose(text):
+    """The same as HTML, where every letter can be raised or lowered: sigma_xy -> σ with subscript xy."""
+    marked = str(escape(_formulas(text, lambda sign, inner: f"\ue000{sign}{inner}\ue001")))   # private signs until it is escaped
+    return Markup(re.sub("\ue000([_^])(.*?)\ue001", lambda m: "<{0}>{1}</{0}>".format("sup" if m[1] == "^" else "sub", m[2]),
+                         marked))
+
+
+def words(name):
+    """A name as words: gradient_l2 -> gradient L₂."""
+    return re.sub(r"\bl(inf|1|2)\b", lambda m: {"inf": "L∞", "1": "L₁", "2": "L₂"}[m.group(1)], name.replace("_", " "))
 
 
 def duration(seconds):
@@ -197,11 +210,11 @@ STATES = {
 
 def order(ladder):
     """Observed order with its standard error; where the state allows no order, a dash: a bare order is never printed."""
-    if ladder["order"] is None or ladder["state"] in ("round-off", "undetermined"):
+    if ladder["order"] is None or ladder["state"] in ("oscillatory", "round-off", "undetermined"):
         return "–"
-    text = f"{ladder['order']:.2f}"
-    if ladder["order_stderr"] is not None:
-        text += f" ± {ladder['order_stderr']:.2f}"
+    stderr = ladder["order_stderr"]
+    decimals = 3 if stderr is not None and stderr < 0.005 else 2
+    text = f"{ladder['order']:.{decimals}f}" + (f" ± {stderr:.{decimals}f}" if stderr is not None else "")
     return text.replace("-", MINUS)
 
 

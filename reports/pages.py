@@ -124,7 +124,7 @@ def figures_of(case, provenance):
         if steps:
             shown += steps
             said = "; ".join(ladder.name(s) for s in steps)
-            name = metric["name"].replace("_", " ")
+            name = numbers.words(metric["name"])
             convergence[metric["name"]] = Figure(
                 file(f"ladder-{metric['name']}"), f"Convergence of {name}", "",
                 f"Convergence of {name} over particle spacing. {said}.", ladder.draw, (metric, mark))
@@ -139,7 +139,7 @@ def figures_of(case, provenance):
         path = case.folder / files["history"]
         try:
             for i, (unit, names) in enumerate(history.groups(path)):
-                words = ", ".join(n.replace("_", " ") for n in names)
+                words = ", ".join(numbers.words(n) for n in names)
                 series.append(Figure(file(f"history-{i + 1}"), f"History of {words}", "", f"{words} over time.", history.draw,
                                      (path, unit, names, mark)))
         except (OSError, KeyError) as error:
@@ -192,9 +192,8 @@ def _write(run, work, jobs):
 
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=_Absent)
-    environment.filters.update(number=numbers.number, unit=numbers.unit, symbol=numbers.symbol, norm=numbers.norm,
-                               prose=numbers.label, size=numbers.size, percent=numbers.percent, path=lambda p: quote(p),
-                               words=lambda t: t.replace("_", " "))
+    environment.filters.update(number=numbers.number, unit=numbers.unit, symbol=numbers.symbol, words=numbers.words,
+                               prose=numbers.prose, size=numbers.size, percent=numbers.percent, path=lambda p: quote(p))
     environment.globals.update(
         words=WORDS, class_words=CLASS_WORDS, verdicts=results.VERDICTS, classes=results.CLASSES, states=numbers.STATES,
         with_uncertainty=numbers.with_uncertainty, order=numbers.order, quantity=numbers.quantity, with_unit=numbers.with_unit,

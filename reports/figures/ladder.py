@@ -3,7 +3,7 @@
 import math
 
 from reports.figures import style
-from reports.numbers import order, prefixed, with_unit
+from reports.numbers import order, prefixed, with_unit, words
 
 
 def ladders_of(metric):
@@ -62,7 +62,7 @@ def draw(metric, stamp):
             style.log_axis(axes.yaxis, *axes.get_ylim())
         else:
             style.linear_axis(axes.yaxis, *axes.get_ylim())
-    quantity = metric["name"].replace("_", " ")
+    quantity = words(metric["name"])
     unit_shown = metric["unit"] if not is_error or "relative" not in metric["norm"] else "1"
     style.labels(axes, with_unit("particle spacing Δx", unit), with_unit(quantity, unit_shown))
     style.legend(figure, axes, columns=1)

@@ -86,7 +86,7 @@ def cloud(x, y, quantity, axes_labels, colour_label, groups, stamp, title):
             axes.scatter(x[start:start + count], y[start:start + count], color=look["color"], label=label or None, **common)
             start += count
     for axis, limits in ((axes.xaxis, x_range), (axes.yaxis, y_range)):
-        style.linear_axis(axis, *limits)
+        style.linear_axis(axis, *limits, most=7 if axis is axes.xaxis else max(2, min(7, int(height / 35.0))))
     style.labels(axes, *axes_labels)
     if rows:
         style.legend(figure, axes, columns=1)

@@ -119,9 +119,9 @@ def log_axis(axis, low, high):
     axis.set_minor_locator(matplotlib.ticker.NullLocator())   # minor ticks are half the time of a drawing
 
 
-def linear_axis(axis, low=0.0, high=1.0):
-    """At most seven ticks with plain numbers; a range that is very large or small gets its power of ten on each tick."""
-    axis.set_major_locator(matplotlib.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]))
+def linear_axis(axis, low=0.0, high=1.0, most=7):
+    """At most `most` ticks with plain numbers; a range that is very large or small gets its power of ten on each tick."""
+    axis.set_major_locator(matplotlib.ticker.MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
     span = high - low
     largest = max(abs(low), abs(high))
     digits = 4

@@ -44,9 +44,21 @@ def test_symbol(text, shown):
     ("c_0", "c₀"),
     ("the sum of forces", "the sum of forces"), ("|sum V x grad W - I|", "|\u2211 V x ∇ W − I|"), ("Linf", "L∞"),
     ("10^-3 s", "10⁻³ s"),
-    ("cubic_spline", "cubic_spline"), ("wall-time", "wall-time"), ("(1/2) <x^2> f''", "(1/2) ⟨x²⟩ f′′")])
+    ("cubic_spline", "cubic_spline"), ("wall-time", "wall-time"), ("the body's", "the body's"),
+    ("(1/2) <x^2> f''", "(1/2) ⟨x²⟩ f′′")])
 def test_label(text, shown):
     assert numbers.label(text) == shown
+
+
+@pytest.mark.parametrize("text, shown", [
+    ("sigma_xy = 2 h^2", "σ<sub>xy</sub> = 2 h<sup>2</sup>"), ("<script>x</script>", "&lt;script&gt;x&lt;/script&gt;"),
+    ("a^{<b>}", "a<sup>⟨b⟩</sup>"), ("|<grad f> - grad f|", "|⟨∇ f⟩ − ∇ f|"), ("L2 relative", "L₂ relative")])
+def test_prose(text, shown):
+    assert numbers.prose(text) == shown
+
+
+def test_words():
+    assert numbers.words("gradient_l2") == "gradient L₂"
 
 
 @pytest.mark.parametrize("fraction, text", [
@@ -71,5 +83,6 @@ def test_band(ends, text):
 def test_an_order_is_never_printed_where_the_state_forbids_it():
     ladder = {"order": 1.98, "order_stderr": 0.03, "state": "asymptotic"}
     assert numbers.order(ladder) == "1.98 ± 0.03"
-    for state in ("round-off", "undetermined"):
+    assert numbers.order({**ladder, "order_stderr": 0.0021}) == "1.980 ± 0.002"
+    for state in ("oscillatory", "round-off", "undetermined"):
         assert numbers.order({**ladder, "state": state}) == "–"
