@@ -85,6 +85,8 @@ void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<co
   const auto* quadratic = std::get_if<std::span<const QuadraticGradient<Dim>>>(&correction);
   const bool dual = linear || quadratic;
   if (quadratic && Dim != 2) throw std::invalid_argument("quadratic gradients are there for two dimensions only");
+  if ((linear && linear->size() < p.size()) || (quadratic && quadratic->size() < p.size()))
+    throw std::invalid_argument("a correction must have one entry a particle");
   const std::size_t extended = stencil.position.size();
   w.weight.resize(extended);
   if (quadratic)

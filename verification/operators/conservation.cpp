@@ -48,11 +48,11 @@ struct Losses {
 };
 
 template <int Dim>
-Losses losses(const Stencil<Dim>& stencil, const Particles<Dim>& p, const std::vector<Matrix<Dim>>& B, const MomentumTerms& terms) {
+Losses losses(const Stencil<Dim>& stencil, const Particles<Dim>& p, const CorrectionView<Dim>& correction, const MomentumTerms& terms) {
   std::vector<Vector<Dim>> a(p.size());
   std::vector<MomentumPower> power(p.size());
   MomentumWorkspace<Dim> workspace;
-  momentum<Dim>(stencil, p, p.velocity, B, terms, workspace, a, power);
+  momentum<Dim>(stencil, p, p.velocity, correction, terms, workspace, a, power);
   Vector<Dim> force = Vector<Dim>::Zero(), centre = Vector<Dim>::Zero();
   for (const Vector<Dim>& x : p.position) centre += x / static_cast<double>(p.size());
   Vector<3> torque = Vector<3>::Zero();
@@ -99,7 +99,8 @@ void run_block(Run& run, const Setup& s) {
         MomentumTerms terms{.viscosity = {}, .artificial_stress = {}, .spacing = s.spacing};
         if (viscous) terms.viscosity = ArtificialViscosity{};
         if (artificial) terms.artificial_stress = ArtificialStress{};
-        const Losses lost = losses<Dim>(stencil, p, B, terms);
+        const CorrectionView<Dim> correction = B.empty() ? CorrectionView<Dim>{} : std::span<const Matrix<Dim>>(B);
+        const Losses lost = losses<Dim>(stencil, p, correction, terms);
         momentum_lost.add(lost.momentum);
         power_lost.add(lost.power);
         // Forces along the line of centres turn nothing: pressure in the paper's form, viscosity, artificial stress of a pressure.

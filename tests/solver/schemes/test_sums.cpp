@@ -64,7 +64,8 @@ void check_momentum(const Sums<Dim>& s, const CorrectionOf<Dim>& B, const Moment
   std::vector<Vector<Dim>> acceleration(p.size());
   std::vector<MomentumPower> power(p.size());
   MomentumWorkspace<Dim> workspace;
-  momentum<Dim>(s.stencil, p, p.velocity, B, terms, workspace, acceleration, power);
+  const CorrectionView<Dim> correction = B.empty() ? CorrectionView<Dim>{} : std::span<const Matrix<Dim>>(B);
+  momentum<Dim>(s.stencil, p, p.velocity, correction, terms, workspace, acceleration, power);
 
   std::vector<Matrix<Dim>> R(p.size(), Matrix<Dim>::Zero());
   for (std::size_t i = 0; terms.artificial_stress && i < p.size(); ++i) {
