@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::array<double, 4> default_time_limit{60.0, 300.0, 3600.0, 21600.0};   // s, by tier
 
+// States of a ladder in which an order can mean something.
+constexpr std::array gateable{LadderState::asymptotic, LadderState::plateau, LadderState::undetermined};
+
 const std::vector<std::string> classes{"exact", "manufactured", "independent", "experiment", "published", "self"};
 
 std::string replaced(std::string text, char from, char to) {
@@ -142,9 +145,10 @@ void read_ladder(const Parameters& at, MetricSpec& metric) {
   if (at.has("states")) {
     metric.states.clear();
     for (const std::string& word : at.texts("states")) {
-      if (word != "asymptotic" && word != "plateau")
-        at.fail("states", fmt::format("found \"{}\", expected \"asymptotic\" or \"plateau\"", word));
-      metric.states.push_back(word == "plateau" ? LadderState::plateau : LadderState::asymptotic);
+      const auto known = std::find_if(gateable.begin(), gateable.end(), [&](LadderState s) { return name(s) == word; });
+      if (known == gateable.end())
+        at.fail("states", fmt::format("found \"{}\", expected \"asymptotic\", \"plateau\" or \"undetermined\"", word));
+      metric.states.push_back(*known);
     }
   }
 }

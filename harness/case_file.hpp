@@ -33,8 +33,8 @@
 //   at = { h_over_dx = 1.5, spacing = { value = 1, unit = "mm" } }   # optional; the gated rung; default: finest, first h/dx
 //   ladder = "error"                            # optional; "error" converges to zero, "value" to a limit
 //   observed_order_of = "gradient_l2"           # instead of being measured: the order of that metric's ladder at this h/dx
-//   states = ["asymptotic", "plateau"]          # optional, with observed_order_of; the states in which the order may pass;
-//                                               # default: asymptotic alone
+//   states = ["asymptotic", "plateau"]          # optional, with observed_order_of; the states in which the order may pass
+//                                               # (asymptotic, plateau, undetermined); default: asymptotic alone
 //   when = { kernel = ["wendland_c2"] }         # optional; the metric is there for these parameter values only
 //   known_gap = { reason = "...", date = 2026-11-22, expires = 2027-05-22 }   # optional
 #pragma once

@@ -50,7 +50,7 @@ bool all_finite(std::span<const double> x) {
 // Number of local orders that fall before a plateau begins; zero when there is no plateau.
 std::size_t falling_part(std::span<const double> local) {
   const double largest = *std::max_element(local.begin(), local.end());
-  if (largest < 0.5) return 0;
+  if (largest < 0.25) return 0;
   std::size_t falling = 0;
   while (falling < local.size() && local[falling] >= 0.5 * largest) ++falling;
   const bool flat_after = falling < local.size() && std::all_of(local.begin() + static_cast<std::ptrdiff_t>(falling), local.end(),
@@ -109,7 +109,7 @@ Ladder error_ladder(std::vector<double> spacing, std::vector<double> error, doub
     ladder.state = LadderState::diverging;
   } else if (!every([](double p) { return p > 0.0; }) && !every([](double p) { return p < 0.0; })) {
     ladder.state = LadderState::oscillatory;
-  } else if (whole.slope > 0.0 && every([&](double p) { return std::abs(p - whole.slope) <= 0.3; })) {
+  } else if (whole.slope >= 0.5 && every([&](double p) { return std::abs(p - whole.slope) <= 0.2; })) {
     ladder.state = LadderState::asymptotic;
   }
   return ladder;

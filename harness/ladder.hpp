@@ -14,11 +14,11 @@ namespace furrow {
 /// holds:
 ///   undetermined  fewer than three rungs, a number that is not finite, or a rung other than the finest at round-off
 ///   round-off     the finest error is at or below the round-off floor
-///   plateau       every local order is below 0.25 in magnitude; or local orders of at least half the largest one (which is 0.5
-///                 or more) are followed, up to the finest rung, by local orders below half of it in magnitude
+///   plateau       every local order is below 0.25 in magnitude; or local orders of at least half the largest one (which is
+///                 0.25 or more) are followed, up to the finest rung, by local orders below half of it in magnitude
 ///   diverging     the fitted order is below -0.1 and so is the local order at the finest rung
 ///   oscillatory   local orders of both signs
-///   asymptotic    every local order lies within 0.3 of the fitted one, and that is positive
+///   asymptotic    every local order lies within 0.2 of the fitted one, and that is at least 0.5
 ///   undetermined  none of these: the order still changes
 /// States of a ladder of values that tend to a limit (differences d_i = f_(i+1) - f_i, fit f = f0 + C dx^p):
 ///   undetermined  fewer than three rungs, or a number that is not finite
