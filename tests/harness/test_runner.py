@@ -1,7 +1,6 @@
 """The runner: whatever happens to one case is red, says why, and costs only that case."""
 
 import json
-import os
 import signal
 import subprocess
 import time
@@ -17,6 +16,20 @@ SCHEMA = json.loads((ROOT / "harness/schema/result-1.json").read_text())
 
 def result(folder, case):
     return json.loads((folder / "misbehaving" / case / "result.json").read_text())
+
+
+def children_of(process):
+    with open(f"/proc/{process.pid}/task/{process.pid}/children") as listed:
+        return [int(child) for child in listed.read().split()]
+
+
+def alive(process):
+    """Runs still; one that has ended and waits to be collected does not."""
+    try:
+        with open(f"/proc/{process}/stat") as stat:
+            return stat.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +140,7 @@ def test_an_interrupt_stops_the_children_and_keeps_what_is_done(tmp_path):
     while not done.exists() and time.monotonic() < deadline:
         time.sleep(0.02)
     time.sleep(0.2)
-    children = [int(p) for p in open(f"/proc/{process.pid}/task/{process.pid}/children").read().split()]
+    children = children_of(process)
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=20)
     assert process.returncode == 130
@@ -136,9 +149,30 @@ def test_an_interrupt_stops_the_children_and_keeps_what_is_done(tmp_path):
     assert (folder / "junit.xml").exists()
     assert not (folder / "misbehaving/never-ends/result.json").exists()
     assert children
-    for child in children:
-        with pytest.raises(ProcessLookupError):
-            os.kill(child, 0)
+    assert not any(alive(child) for child in children)
+
+
+def test_a_run_that_is_killed_leaves_whole_results_no_children_and_can_be_resumed(tmp_path):
+    folder = tmp_path / "run"
+    cases = ["misbehaving/good", "misbehaving/never-ends", "--no-report", "--out", folder]
+    process = subprocess.Popen([MISBEHAVING, "run", *cases, "--jobs", "2"], stdout=subprocess.DEVNULL)
+    done = folder / "misbehaving/good/result.json"
+    deadline = time.monotonic() + 20
+    while not done.exists() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    children = children_of(process)
+    process.kill()
+    process.wait(timeout=20)
+    assert json.loads(done.read_text())["verdict"] == "pass"
+    deadline = time.monotonic() + 10
+    while any(alive(child) for child in children) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert not any(alive(child) for child in children)
+
+    ended = run(MISBEHAVING, "run", *cases, "--resume")
+    assert ended.returncode == 3
+    assert "(1 kept from before)" in ended.stdout
+    assert json.loads((folder / "run.json").read_text())["state"] == "finished"
 
 
 def test_a_report_that_fails_is_said_and_is_exit_code_3(tmp_path):
