@@ -10,13 +10,13 @@ namespace furrow {
 
 /// How the stress of a Drucker-Prager soil is brought forward.
 enum class DruckerPragerUpdate {
-  return_map,      ///< elastic step, then the exact return along the flow to cone, cut-off or their corner (backward Euler)
-  rate,            ///< the paper's Eqs 11 and 14, elastic part 2 G e_dot + K eps_dot_kk, one explicit step, then drift correction
-  rate_printed     ///< the same with Eq. 11 as printed: 2 G eps_dot of the total strain rate
+  return_map,    ///< elastic step, then the exact return along the flow to cone, cut-off or their corner (backward Euler)
+  rate,          ///< the paper's Eqs 11 and 14, elastic part 2 G e_dot + K eps_dot_kk, one explicit step, then drift correction
+  rate_printed   ///< the same with Eq. 11 as printed: 2 G eps_dot of the total strain rate
 };
 
-/// Elastic-perfectly plastic soil after Drucker & Prager with flow that need not be associated (paper Eqs 11 to 14): hypoelastic with
-/// constant K and G, yield sqrt(J2) + alpha I1 = k, potential sqrt(J2) + beta I1, mean stress at most the cut-off.
+/// Elastic-perfectly plastic soil after Drucker & Prager with flow that need not be associated (paper Eqs 11 to 14): hypoelastic
+/// with constant K and G, yield sqrt(J2) + alpha I1 = k, potential sqrt(J2) + beta I1, mean stress at most the cut-off.
 struct DruckerPrager {
   static constexpr std::string_view name = "drucker_prager";
 
@@ -24,7 +24,8 @@ struct DruckerPrager {
   double bulk_modulus;        ///< K, Pa
   double shear_modulus;       ///< G, Pa
   DruckerPragerCone cone;
-  double tension_limit = std::numeric_limits<double>::infinity();   ///< largest mean stress, Pa, where the apex is not lower still
+  double tension_limit =
+      std::numeric_limits<double>::infinity();   ///< largest mean stress, Pa, where the apex is not lower still
   DruckerPragerUpdate update = DruckerPragerUpdate::return_map;
 
   MaterialState initial_state() const {
@@ -37,7 +38,9 @@ struct DruckerPrager {
   double cut_off() const { return 3.0 * std::min(tension_limit, cone.apex()); }
 
   /// f = sqrt(J2) + alpha I1 - k, Pa; plastic where it is 0.
-  double yield_function(const Tensor& stress) const { return std::sqrt(j2(deviator(stress))) + cone.alpha * stress.trace() - cone.k; }
+  double yield_function(const Tensor& stress) const {
+    return std::sqrt(j2(deviator(stress))) + cone.alpha * stress.trace() - cone.k;
+  }
 
   MaterialState respond(MaterialState state, const Increment& increment) const {
     const Tensor before = state.stress;
@@ -78,14 +81,15 @@ struct DruckerPrager {
     return {deviator(stress) + 2.0 * shear_modulus * deviator(strain), stress.trace() + 3.0 * bulk_modulus * strain.trace()};
   }
 
-  /// Along the flow d_sigma = -lambda (G s/sqrt(J2) + 3 K beta I) to the cone; along the hydrostatic axis to the cut-off; to their
-  /// corner where neither alone ends inside the other. The apex is the corner of a cut-off that passes through it.
+  /// Along the flow d_sigma = -lambda (G s/sqrt(J2) + 3 K beta I) to the cone; along the hydrostatic axis to the cut-off; to
+  /// their corner where neither alone ends inside the other. The apex is the corner of a cut-off that passes through it.
   Stress returned(Stress trial) const {
     const double J = std::sqrt(j2(trial.s)), highest = cut_off();
     const double f = J + cone.alpha * trial.I1 - cone.k;
     if (f <= 0.0 && trial.I1 <= highest) return trial;
 
-    const double at_cut_off = cone.alpha > 0.0 ? std::max(0.0, cone.k - cone.alpha * highest) : cone.k;   // sqrt(J2) of the corner
+    const double at_cut_off =
+        cone.alpha > 0.0 ? std::max(0.0, cone.k - cone.alpha * highest) : cone.k;   // sqrt(J2) of the corner
     double J_new = J, I1_new = highest;
     if (J > at_cut_off) {   // not the cut-off alone
       const double lambda = f / (shear_modulus + 9.0 * bulk_modulus * cone.alpha * cone.beta);

@@ -12,9 +12,9 @@ struct DruckerPragerCone {
   /// Mean stress at the apex, Pa.
   double apex() const { return alpha > 0.0 ? k / (3.0 * alpha) : std::numeric_limits<double>::infinity(); }
 
-  /// The constants of Bui et al. 2008 that the paper takes: Mohr-Coulomb's in plane strain for associated flow; but the potential is
-  /// sqrt(J2) + 3 I1 sin(psi), so that for psi = 0 the angle of friction in plane strain is asin(3 alpha), less than phi; and psi is
-  /// not an angle of dilation.
+  /// The constants of Bui et al. 2008 that the paper takes: Mohr-Coulomb's in plane strain for associated flow; but the potential
+  /// is sqrt(J2) + 3 I1 sin(psi), so that for psi = 0 the angle of friction in plane strain is asin(3 alpha), less than phi; and
+  /// psi is not an angle of dilation.
   static DruckerPragerCone bui(double c, double phi, double psi) {
     const double t = std::tan(phi), root = std::sqrt(9.0 + 12.0 * t * t);
     return {t / root, 3.0 * c / root, 3.0 * std::sin(psi)};

@@ -17,7 +17,8 @@ struct Closing {
 ///   sigma = s - p I,  p = p(rho, e),  e = e_0 - (p_0 + p)/2 (v - v_0) + (s_0 + s)/2 : de / rho_middle,
 /// which is linear in e and solved exactly. v = 1/rho, and v_0 = exp(-tr de)/rho. A single step from rest ends on the Hugoniot.
 template <class Eos>
-MaterialState closed_step(const Eos& eos, MaterialState state, const Tensor& s, const Increment& increment, const Closing& closing = {}) {
+MaterialState closed_step(const Eos& eos, MaterialState state, const Tensor& s, const Increment& increment,
+                          const Closing& closing = {}) {
   const Tensor s_0 = deviator(state.stress);
   const double p_0 = -state.stress.trace() / 3.0;
   const double trace = increment.strain.trace();

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <algorithm>
+
 #include "solver/materials/first_law.hpp"
 #include "solver/materials/linear_eos.hpp"
 #include "solver/materials/mie_grueneisen.hpp"
+#include "solver/materials/straight_path.hpp"
 
 namespace furrow {
 
-/// Von Mises plasticity with linear hardening, sigma_y = Y + H eps_p; H = 0 is perfect plasticity. The return to the yield surface
-/// is radial and exact: sqrt(3 J2) = sigma_y(eps_p + d_eps_p) with d_eps_p = (q_trial - sigma_y(eps_p))/(3 G + H).
+/// Von Mises plasticity with linear hardening, sigma_y = Y + H eps_p; H = 0 is perfect plasticity. The return to the yield
+/// surface is exact, sqrt(3 J2) = sigma_y(eps_p + d_eps_p) with d_eps_p = (q_trial - sigma_y(eps_p))/(3 G + H), and the whole
+/// step is for H = 0 and straight strain (straight_path.hpp); along the stress it is the radial return.
 template <class Eos>
 struct J2Plastic {
   static constexpr std::string_view name = "j2";
@@ -27,16 +31,13 @@ struct J2Plastic {
 
   MaterialState respond(MaterialState state, const Increment& increment) const {
     const double G = shear_modulus;
-    Tensor s = elastic_deviator(state.stress, G, increment);
-    const double q_trial = std::sqrt(3.0 * j2(s));
-    const double d_eps_p = (q_trial - flow_stress(state.plastic_strain)) / (3.0 * G + hardening_modulus);
-    if (d_eps_p > 0.0) {
-      const double q = q_trial - 3.0 * G * d_eps_p;
-      s *= q / q_trial;
-      state.plastic_strain += d_eps_p;
-      state.plastic_work += q * d_eps_p / state.density;
-    }
-    return closed_step(eos, state, s, increment);
+    const double yield = flow_stress(state.plastic_strain);
+    const StraightPath path = straight_path(deviator(state.stress), 2.0 * G * deviator(increment.strain), yield);
+    const double d_eps_p = std::max(0.0, (path.q_trial - yield) / (3.0 * G + hardening_modulus));
+    const double q = path.q_trial - 3.0 * G * d_eps_p;
+    state.plastic_strain += d_eps_p;
+    state.plastic_work += q * d_eps_p / state.density;
+    return closed_step(eos, state, q * path.direction, increment);
   }
 
   double sound_speed(const MaterialState& state) const { return longitudinal_speed(eos, shear_modulus, state); }

@@ -7,20 +7,23 @@
 #include "solver/materials/johnson_cook_strength.hpp"
 #include "solver/materials/linear_eos.hpp"
 #include "solver/materials/mie_grueneisen.hpp"
+#include "solver/materials/straight_path.hpp"
 
 namespace furrow {
 
 /// Where the paper's printed equations differ from the right ones, each can be had for itself.
 struct JohnsonCookForm {
-  bool stress_power = true;      ///< false: Eq. 9, the energy takes pressure work only and nothing heats by plastic flow
-  bool root_of_j2 = true;        ///< false: Eq. 19, f_y = sigma_y/(sqrt(3) J2), in SI units
-  bool plastic_rate = true;      ///< false: Eq. 21 with the rate sqrt(2/3 eps_dot : eps_dot) of the total strain
+  bool stress_power = true;   ///< false: Eq. 9, the energy takes pressure work only and nothing heats by plastic flow
+  bool root_of_j2 = true;     ///< false: Eq. 19, f_y = sigma_y/(sqrt(3) J2), in SI units
+  bool plastic_rate = true;   ///< false: Eq. 21 with the rate sqrt(2/3 eps_dot : eps_dot) of the total strain
 };
 
-/// A metal by Johnson & Cook: strength that depends on plastic strain, its rate and temperature, adiabatic heating by the share beta
-/// of the plastic work, an equation of state, and damage if there is a law for it.
+/// A metal by Johnson & Cook: strength that depends on plastic strain, its rate and temperature, adiabatic heating by the share
+/// beta of the plastic work, an equation of state, and damage if there is a law for it.
 ///
-/// The radial return is implicit in everything that the flow stress depends on (backward Euler, of first order in dt):
+/// The direction of the stress follows the strain exactly as for perfect plasticity (straight_path.hpp; along the stress this is
+/// the radial return), the return to the yield surface is implicit in everything that the flow stress depends on (backward Euler,
+/// of first order in dt):
 ///   q_trial - 3 G x = integrity sigma_y(eps_p + x, x/dt, T + beta q x/(rho c_p)),   q = q_trial - 3 G x,
 /// solved for the plastic strain increment x to 1e-12 of q_trial.
 template <class Eos>
@@ -29,10 +32,10 @@ struct JohnsonCook {
   static constexpr int most_iterations = 100;   ///< bisection alone would need about 60; typical are 4
 
   Eos eos;
-  double shear_modulus;     ///< G, Pa
+  double shear_modulus;   ///< G, Pa
   JohnsonCookStrength strength;
-  double specific_heat;     ///< c_p, J/(kg K)
-  double taylor_quinney;    ///< beta, 0 for isothermal flow
+  double specific_heat;    ///< c_p, J/(kg K)
+  double taylor_quinney;   ///< beta, 0 for isothermal flow
   std::optional<JohnsonCookDamage> damage{};
   JohnsonCookForm form{};
 
@@ -49,18 +52,18 @@ struct JohnsonCook {
     const Closing closing{damage && damage->keeps_tension ? 1.0 : intact, form.stress_power};
     if (intact == 0.0) return closed_step(eos, state, Tensor::Zero(), increment, closing);
 
-    Tensor s = elastic_deviator(state.stress, G, increment);
-    const double q_trial = std::sqrt(3.0 * j2(s));
-    const double x = form.root_of_j2 ? plastic_increment(state, q_trial, intact, increment)
-                                     : plastic_increment_without_root(state, q_trial, increment);
+    const Tensor s_0 = deviator(state.stress), way = 2.0 * G * deviator(increment.strain);
+    const double q_yield = intact * strength.flow_stress(state.plastic_strain, total_rate(increment), state.temperature).value;
+    const StraightPath path = straight_path(s_0, way, form.root_of_j2 ? q_yield : HUGE_VAL);
+    const double x = form.root_of_j2 ? plastic_increment(state, path.q_trial, intact, increment)
+                                     : plastic_increment_without_root(path.q_trial, q_yield);
+    const double q = std::max(0.0, path.q_trial - 3.0 * G * x);
     if (x > 0.0) {
-      const double q = std::max(0.0, q_trial - 3.0 * G * x);
-      s *= q / q_trial;
       state.plastic_strain += x;
       state.plastic_work += q * x / state.density;
       state.temperature += heating(state.density) * q * x;
     }
-    state = closed_step(eos, state, s, increment, closing);
+    state = closed_step(eos, state, q * path.direction, increment, closing);
     if (damage && x > 0.0) break_up(state, x, increment.dt);
     return state;
   }
@@ -110,9 +113,8 @@ struct JohnsonCook {
   }
 
   /// Eqs 19 and 20 as printed: s becomes f_y s with f_y = sigma_y/(sqrt(3) J2), and what is taken off is plastic strain.
-  double plastic_increment_without_root(const MaterialState& state, double q_trial, const Increment& increment) const {
+  double plastic_increment_without_root(double q_trial, double sigma_y) const {
     const double J2 = q_trial * q_trial / 3.0;
-    const double sigma_y = strength.flow_stress(state.plastic_strain, total_rate(increment), state.temperature).value;
     const double f_y = sigma_y / (std::sqrt(3.0) * J2);
     return f_y < 1.0 ? (1.0 - f_y) * q_trial / (3.0 * shear_modulus) : 0.0;
   }
@@ -121,8 +123,9 @@ struct JohnsonCook {
   void break_up(MaterialState& state, double x, double dt) const {
     const double q = von_mises(state.stress), mean = state.stress.trace() / 3.0;
     const double triaxiality = q > 0.0 ? mean / q : std::copysign(1e300, mean);
-    damage->accumulate(state, x, {triaxiality, strength.rate_ratio(x / dt), strength.homologous_temperature(state.temperature),
-                                  state.plastic_strain});
+    damage->accumulate(
+        state, x,
+        {triaxiality, strength.rate_ratio(x / dt), strength.homologous_temperature(state.temperature), state.plastic_strain});
     if (damage->integrity(state) > 0.0) return;
     state.stress = (damage->keeps_tension ? mean : std::min(0.0, mean)) * Tensor::Identity();
   }

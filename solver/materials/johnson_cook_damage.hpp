@@ -13,17 +13,17 @@ namespace furrow {
 /// s* > 1.35), and the pressure noise of particles goes far outside: s* is clipped and eps_f has a floor.
 ///
 /// A local law fails a point at eps_f wherever it lies, and a crack of one particle's width then costs the less energy the finer
-/// the particles are. With softening_length l_c > 0 the sum only marks the onset; from there the strength falls linearly with plastic
-/// strain to nothing at the plastic displacement eps_f l_c over one particle: energy per crack area about sigma_y eps_f l_c/2 at
-/// every spacing.
+/// the particles are. With softening_length l_c > 0 the sum only marks the onset; from there the strength falls linearly with
+/// plastic strain to nothing at the plastic displacement eps_f l_c over one particle: energy per crack area about sigma_y eps_f
+/// l_c/2 at every spacing.
 struct JohnsonCookDamage {
   double D1, D2, D3, D4, D5;
   double lowest_triaxiality, highest_triaxiality;
-  double least_fracture_strain;      ///< floor of eps_f, positive
-  double softening_length = 0.0;     ///< l_c, m; 0: local
-  double spacing = 0.0;              ///< particle spacing, m; used with softening_length
-  bool printed_rate = false;         ///< Eq. 24 as printed: brackets misplaced, and plastic strain where its rate belongs
-  bool keeps_tension = false;        ///< as printed: failure zeroes shear only
+  double least_fracture_strain;    ///< floor of eps_f, positive
+  double softening_length = 0.0;   ///< l_c, m; 0: local
+  double spacing = 0.0;            ///< particle spacing, m; used with softening_length
+  bool printed_rate = false;       ///< Eq. 24 as printed: brackets misplaced, and plastic strain where its rate belongs
+  bool keeps_tension = false;      ///< as printed: failure zeroes shear only
 
   struct Circumstances {
     double triaxiality;              ///< sigma_m/sigma_eq

@@ -7,17 +7,17 @@ namespace furrow {
 
 /// Johnson-Cook flow stress (paper Eqs 21, 22; Johnson & Cook 1983), and how it changes with each argument.
 struct JohnsonCookStrength {
-  double A, B;                    ///< Pa
+  double A, B;   ///< Pa
   double n, C, m;
   double reference_rate;          ///< eps_dot_0, 1/s
   double reference_temperature;   ///< T_ref, K
   double melting_temperature;     ///< T_melt, K
 
   struct FlowStress {
-    double value;                 ///< sigma_y, Pa
-    double by_strain;             ///< d sigma_y / d eps_p, Pa; infinite at eps_p = 0 for n < 1
-    double by_log_rate;           ///< d sigma_y / d ln eps_p_dot, Pa
-    double by_temperature;        ///< d sigma_y / d T, Pa/K
+    double value;            ///< sigma_y, Pa
+    double by_strain;        ///< d sigma_y / d eps_p, Pa; infinite at eps_p = 0 for n < 1
+    double by_log_rate;      ///< d sigma_y / d ln eps_p_dot, Pa
+    double by_temperature;   ///< d sigma_y / d T, Pa/K
   };
 
   /// T* = (T - T_ref)/(T_melt - T_ref), within 0 and 1.

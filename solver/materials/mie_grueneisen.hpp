@@ -6,16 +6,17 @@
 
 namespace furrow {
 
-/// Mie-Grueneisen equation of state on the linear Hugoniot U_s = c_0 + S u_p, with Gamma rho = Gamma_0 rho_0 (paper Eq. 17 with the
-/// denominator squared, as the jump conditions give it), eta = rho/rho_0 - 1 and e the internal energy per mass:
+/// Mie-Grueneisen equation of state on the linear Hugoniot U_s = c_0 + S u_p, with Gamma rho = Gamma_0 rho_0 (paper Eq. 17 with
+/// the denominator squared, as the jump conditions give it), eta = rho/rho_0 - 1 and e the internal energy per mass:
 ///   p = rho_0 c_0^2 eta [1 + (1 - Gamma_0/2) eta] / [1 - (S - 1) eta]^2 + Gamma_0 rho_0 e   in compression,
 ///   p = rho_0 c_0^2 eta + Gamma_0 rho_0 e                                                   in expansion.
-/// Beyond eta = 1/(S - 1) no shock compresses the material: the pressure is NaN there, not a number from the wrong side of the pole.
+/// Beyond eta = 1/(S - 1) no shock compresses the material: the pressure is NaN there, not a number from the wrong side of the
+/// pole.
 struct MieGrueneisen {
-  double reference_density;      ///< rho_0, kg/m^3
-  double sound_speed;            ///< c_0, m/s, of bulk waves
-  double slope;                  ///< S
-  double gamma;                  ///< Gamma_0
+  double reference_density;          ///< rho_0, kg/m^3
+  double sound_speed;                ///< c_0, m/s, of bulk waves
+  double slope;                      ///< S
+  double gamma;                      ///< Gamma_0
   bool squared_denominator = true;   ///< false: Eq. 17 as the paper prints it
 
   double cold_pressure(double rho) const {
@@ -32,8 +33,8 @@ struct MieGrueneisen {
     return rho * cold_slope(rho) + gamma * reference_density * pressure / rho;
   }
 
-  /// Energy of slow compression from rho_0 at constant entropy: de = -p dv with p = p(rho, e), a linear equation whose solution is
-  /// v_0 int_0^x exp(Gamma_0 (x - y)) p_cold(rho_0/(1 - y)) dy with x = 1 - rho_0/rho, by Gauss-Legendre with eight points.
+  /// Energy of slow compression from rho_0 at constant entropy: de = -p dv with p = p(rho, e), a linear equation whose solution
+  /// is v_0 int_0^x exp(Gamma_0 (x - y)) p_cold(rho_0/(1 - y)) dy with x = 1 - rho_0/rho, by Gauss-Legendre with eight points.
   double cold_energy(double rho) const {
     constexpr std::array<double, 4> node{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
     constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};

@@ -12,7 +12,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 double in_energy(const DruckerPrager& law, const Tensor& a, const Tensor& b) {   // a : C^-1 : b
-  return double_contraction(deviator(a), deviator(b)) / (2.0 * law.shear_modulus) + a.trace() * b.trace() / (9.0 * law.bulk_modulus);
+  return double_contraction(deviator(a), deviator(b)) / (2.0 * law.shear_modulus) +
+         a.trace() * b.trace() / (9.0 * law.bulk_modulus);
 }
 
 DruckerPrager associated(double tension_limit) {
@@ -83,8 +84,8 @@ TEST_CASE("Non-associated return: what is taken off is along the flow at the str
     const Tensor de = 0.01 * motion.symmetric() - 0.005 * Tensor::Identity();
     const MaterialState next = advance(law, law.initial_state(), {de, Tensor::Zero(), 1.0});
     if (next.plastic_strain == 0.0) continue;
-    const Tensor elastic_part = deviator(next.stress) / (2.0 * law.shear_modulus) +
-                                next.stress.trace() / (9.0 * law.bulk_modulus) * Tensor::Identity();
+    const Tensor elastic_part =
+        deviator(next.stress) / (2.0 * law.shear_modulus) + next.stress.trace() / (9.0 * law.bulk_modulus) * Tensor::Identity();
     const Tensor flow = de - elastic_part;
     const Tensor s = deviator(next.stress);
     const double J = std::sqrt(j2(s));

@@ -41,9 +41,12 @@ TEST_CASE("Flow stress by hand", "[johnson_cook]") {
           const auto at = s.flow_stress(eps_p, rate, temperature);
           const double h = 1e-5;
           const auto by = [&](auto f) { return (f(h) - f(-h)) / (2.0 * h); };
-          CHECK(at.by_strain == Approx(by([&](double d) { return s.flow_stress(eps_p + d, rate, temperature).value; })).epsilon(1e-5));
-          CHECK(at.by_log_rate == Approx(by([&](double d) { return s.flow_stress(eps_p, rate * std::exp(d), temperature).value; })).epsilon(1e-5));
-          CHECK(at.by_temperature == Approx(by([&](double d) { return s.flow_stress(eps_p, rate, temperature + d).value; })).epsilon(1e-4));
+          CHECK(at.by_strain ==
+                Approx(by([&](double d) { return s.flow_stress(eps_p + d, rate, temperature).value; })).epsilon(1e-5));
+          CHECK(at.by_log_rate ==
+                Approx(by([&](double d) { return s.flow_stress(eps_p, rate * std::exp(d), temperature).value; })).epsilon(1e-5));
+          CHECK(at.by_temperature ==
+                Approx(by([&](double d) { return s.flow_stress(eps_p, rate, temperature + d).value; })).epsilon(1e-4));
         }
   }
 }
@@ -54,8 +57,11 @@ TEST_CASE("The return ends on the yield surface of the end of the step, for any 
   for (unsigned seed = 0; seed < 20000; ++seed) {
     RandomMotion motion(seed);
     const bool iron = seed % 2 == 0;
-    const JohnsonCook<LinearEos> law{{iron ? 7890.0 : 2700.0, iron ? 164e9 : 66.4e9}, iron ? 80e9 : 26e9,
-                                     iron ? iron_strength() : test::aluminium_strength(), 452.0, seed % 3 == 0 ? 0.0 : 0.9};
+    const JohnsonCook<LinearEos> law{{iron ? 7890.0 : 2700.0, iron ? 164e9 : 66.4e9},
+                                     iron ? 80e9 : 26e9,
+                                     iron ? iron_strength() : test::aluminium_strength(),
+                                     452.0,
+                                     seed % 3 == 0 ? 0.0 : 0.9};
     MaterialState state = law.initial_state();
     state.plastic_strain = seed % 5 == 0 ? 0.0 : std::exp(3.0 * motion.number() - 4.0);
     state.temperature = seed % 7 == 0 ? 294.0 : 294.0 + 400.0 * motion.number();
@@ -70,7 +76,8 @@ TEST_CASE("The return ends on the yield surface of the end of the step, for any 
     ++plastic;
     const double q = von_mises(next.stress);
     const double q_trial = std::sqrt(3.0 * j2(elastic_deviator(state.stress, law.shear_modulus, increment)));
-    worst = std::max(worst, std::abs(q - law.strength.flow_stress(next.plastic_strain, x / dt, next.temperature).value) / q_trial);
+    worst =
+        std::max(worst, std::abs(q - law.strength.flow_stress(next.plastic_strain, x / dt, next.temperature).value) / q_trial);
   }
   CHECK(plastic > 10000);
   CHECK(worst < 1e-11);   // 1e-12 of the solver; x is known to 1e-10 of itself, of which the flow stress sees C
@@ -129,7 +136,7 @@ TEST_CASE("A failed point bears pressure and nothing else", "[johnson_cook]") {
 TEST_CASE("Fracture strain: the fit, its clip and its floor", "[johnson_cook]") {
   const JohnsonCookDamage d = test::aluminium_damage();
   const auto eps_f = [&](double s) { return d.fracture_strain({s, 1.0, 0.0, 0.1}); };
-  CHECK(eps_f(0.0) == Approx(0.680).margin(5e-4));        // 1.45 - 0.77
+  CHECK(eps_f(0.0) == Approx(0.680).margin(5e-4));   // 1.45 - 0.77
   CHECK(eps_f(1.0 / 3.0) == Approx(0.470).margin(5e-4));
   CHECK(eps_f(1.0) == Approx(0.136).margin(5e-4));
   CHECK(eps_f(1.3) == eps_f(1.0));

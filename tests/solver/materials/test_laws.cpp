@@ -11,7 +11,9 @@ namespace {
 double step_size(const LinearElastic&) { return 1e-3; }
 double step_size(const DruckerPrager&) { return 3e-3; }
 template <class M>
-double step_size(const M&) { return 2e-3; }
+double step_size(const M&) {
+  return 2e-3;
+}
 
 }  // namespace
 
@@ -110,7 +112,8 @@ TEST_CASE("Below yield every law is Hooke's", "[materials]") {
             state = advance(law, state, {de, Tensor::Zero(), 1e-3});
             linear = advance(hooke, linear, {de, Tensor::Zero(), 1e-3});
           }
-          CHECK((state.stress - linear.stress).norm() < 1e-6 * linear.stress.norm());   // laws differ by terms of the square of 1e-8
+          CHECK((state.stress - linear.stress).norm() <
+                1e-6 * linear.stress.norm());   // laws differ by terms of the square of 1e-8
           CHECK(state.plastic_strain == 0.0);
           CHECK(state.internal_energy == Approx(linear.internal_energy).epsilon(1e-5));
           CHECK(law.stored_energy(state) == Approx(hooke.stored_energy(linear)).epsilon(1e-5));
@@ -156,7 +159,8 @@ TEST_CASE("Slow compression and release store the cold energy, and give it back"
               CHECK(fine.internal_energy == Approx(e).epsilon(1e-5));
               CHECK(std::abs(fine.internal_energy - e) < std::abs(coarse.internal_energy - e) / 12.0);   // second order: 1/16
               MaterialState back = fine;
-              for (int k = 0; k < 200; ++k) back = advance(law, back, {-strain / 600.0 * Tensor::Identity(), Tensor::Zero(), 1e-6});
+              for (int k = 0; k < 200; ++k)
+                back = advance(law, back, {-strain / 600.0 * Tensor::Identity(), Tensor::Zero(), 1e-6});
               CHECK(std::abs(back.internal_energy) < 1e-12 * e);
               CHECK(back.stress.norm() < 1e-12 * fine.stress.norm());
             }
