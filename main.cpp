@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
   const std::vector<furrow::Family> families = {
       furrow::kernel_family(),
       furrow::operators_family(),
+      furrow::material_point_family(),
   };
   return furrow::command_line(families, argc, argv);
 }

@@ -28,8 +28,10 @@ class Constants {
   double operator()(std::string_view key, Dimension dimension = dimension::none, Range allowed = range::any,
                     std::string_view expected = {}) const {
     if (!table_.has(key))
-      table_.fail(key, fmt::format("found nothing, expected a constant with its source, as in {{ value = 2.5, unit = \"{}\", source = \"...\" }}",
-                                   si_symbol(dimension)));
+      table_.fail(
+          key, fmt::format(
+                   "found nothing, expected a constant with its source, as in {{ value = 2.5, unit = \"{}\", source = \"...\" }}",
+                   si_symbol(dimension)));
     const Parameters constant = table_.table(key);
     const double value = constant.number("value");
     const std::string symbol = constant.text("unit");
@@ -38,14 +40,17 @@ class Constants {
       constant.fail("unit", fmt::format("found \"{}\", expected a unit of dimension {}", symbol, si_symbol(dimension)));
     const double in_si = value * unit->factor;
     if (!allowed.contains(in_si))
-      constant.fail("value", fmt::format("found {:g} {}, expected {}", value, symbol, expected.empty() ? allowed.words() : expected));
+      constant.fail("value",
+                    fmt::format("found {:g} {}, expected {}", value, symbol, expected.empty() ? allowed.words() : expected));
     const std::string source = constant.text("source");
     if (!bibliography_->contains(source)) {
       std::vector<std::string> known;
       for (const auto& [name, citation] : *bibliography_) known.push_back(name);
       const std::string nearest = nearest_word(source, known);
-      constant.fail("source", fmt::format("found \"{}\", expected a key of the bibliography (reference/sources.toml, or [sources] of "
-                                          "this file){}", source, nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+      constant.fail("source",
+                    fmt::format("found \"{}\", expected a key of the bibliography (reference/sources.toml, or [sources] of "
+                                "this file){}",
+                                source, nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
     }
     sources_->insert(source);
     return in_si;
@@ -124,7 +129,8 @@ class Reader {
   MieGrueneisen mie_grueneisen() {
     const Constants c = constants("equation_of_state");
     MieGrueneisen eos{density_, c("sound_speed", dimension::velocity, range::positive),
-                      c("slope", dimension::none, {1.0, range::infinity, false, true}), c("gamma", dimension::none, range::not_negative)};
+                      c("slope", dimension::none, {1.0, range::infinity, false, true}),
+                      c("gamma", dimension::none, range::not_negative)};
     eos.squared_denominator = right("eq_17");
     return eos;
   }
@@ -137,7 +143,8 @@ class Reader {
                             c("hardening_modulus", dimension::stress, range::not_negative)};
     }
     const Constants heat = constants("heating");
-    JohnsonCook<Eos> m{eos, shear_modulus_, johnson_cook_strength(), heat("specific_heat", specific_heat_dimension, range::positive),
+    JohnsonCook<Eos> m{eos, shear_modulus_, johnson_cook_strength(),
+                       heat("specific_heat", specific_heat_dimension, range::positive),
                        heat("taylor_quinney", dimension::none, {0.0, 1.0})};
     if (file_.has("damage")) m.damage = johnson_cook_damage();
     m.form = {.stress_power = right("eq_9"), .root_of_j2 = right("eq_19"), .plastic_rate = right("eq_21")};
@@ -148,8 +155,9 @@ class Reader {
     const Constants c = constants("strength");
     const double reference = c("reference_temperature", dimension::temperature, range::not_negative);
     const double melting = c("melting_temperature", dimension::temperature);
-    if (!(melting > reference)) c.fail("melting_temperature", fmt::format("found {:g} K, expected more than the reference temperature of {:g} K",
-                                                                          melting, reference));
+    if (!(melting > reference))
+      c.fail("melting_temperature",
+             fmt::format("found {:g} K, expected more than the reference temperature of {:g} K", melting, reference));
     return {.A = c("A", dimension::stress, range::positive),
             .B = c("B", dimension::stress, range::not_negative),
             .n = c("n", dimension::none, range::positive),
@@ -164,8 +172,13 @@ class Reader {
     const Constants c = constants("damage");
     const double low = c("lowest_triaxiality"), high = c("highest_triaxiality");
     if (!(high > low)) c.fail("highest_triaxiality", fmt::format("found {:g}, expected more than the lowest of {:g}", high, low));
-    JohnsonCookDamage d{.D1 = c("D1"), .D2 = c("D2"), .D3 = c("D3"), .D4 = c("D4"), .D5 = c("D5"),
-                        .lowest_triaxiality = low, .highest_triaxiality = high,
+    JohnsonCookDamage d{.D1 = c("D1"),
+                        .D2 = c("D2"),
+                        .D3 = c("D3"),
+                        .D4 = c("D4"),
+                        .D5 = c("D5"),
+                        .lowest_triaxiality = low,
+                        .highest_triaxiality = high,
                         .least_fracture_strain = c("least_fracture_strain", dimension::none, range::positive)};
     if (c.has("softening_length")) {
       d.softening_length = c("softening_length", dimension::length, range::positive);
@@ -182,8 +195,10 @@ class Reader {
     const double phi = c("friction_angle", dimension::none, {0.0, 60.0 * degree, false, true}, "at least 0 and less than 60 deg");
     const double cohesion = c("cohesion", dimension::stress, range::not_negative);
     const double psi = c("dilation_angle", dimension::none, range::not_negative);
-    if (psi > phi) c.fail("dilation_angle", fmt::format("found {:g} deg, expected at most the angle of friction of {:g} deg: more would "
-                                                        "create energy", psi / degree, phi / degree));
+    if (psi > phi)
+      c.fail("dilation_angle", fmt::format("found {:g} deg, expected at most the angle of friction of {:g} deg: more would "
+                                           "create energy",
+                                           psi / degree, phi / degree));
     const std::string choice = file_.choice("cone", {"bui", "plane_strain", "compression", "extension"});
     const auto constants_of = choice == "bui"            ? &DruckerPragerCone::bui
                               : choice == "plane_strain" ? &DruckerPragerCone::plane_strain
@@ -191,8 +206,10 @@ class Reader {
                                                          : &DruckerPragerCone::extension;
     DruckerPrager soil{density_, bulk_modulus_, shear_modulus_, constants_of(cohesion, phi, psi)};
     if (soil.cone.beta > soil.cone.alpha * (1.0 + 1e-12))
-      c.fail("dilation_angle", fmt::format("found {:g} deg, expected 3 sin(psi) at most alpha = {:g} for the cone \"bui\", whose potential is "
-                                           "sqrt(J2) + 3 I1 sin(psi): more would create energy", psi / degree, soil.cone.alpha));
+      c.fail("dilation_angle",
+             fmt::format("found {:g} deg, expected 3 sin(psi) at most alpha = {:g} for the cone \"bui\", whose potential is "
+                         "sqrt(J2) + 3 I1 sin(psi): more would create energy",
+                         psi / degree, soil.cone.alpha));
     if (c.has("tension_limit")) soil.tension_limit = c("tension_limit", dimension::stress, range::not_negative);
     const std::string update = file_.choice_or("update", "return_map", {"return_map", "rate", "rate_printed"});
     soil.update = update == "rate"           ? DruckerPragerUpdate::rate
@@ -216,7 +233,8 @@ class Reader {
 
 NamedMaterial read_material(const Parameters& file, double spacing) { return Reader(file, spacing).read(); }
 
-NamedMaterial read_material(const Parameters& parameters, std::string_view key, double spacing, const std::vector<MaterialChange>& changes) {
+NamedMaterial read_material(const Parameters& parameters, std::string_view key, double spacing,
+                            const std::vector<MaterialChange>& changes) {
   namespace fs = std::filesystem;
   const std::string word = parameters.text(key);
   fs::path path = fs::path(parameters.file()).parent_path() / (word + ".toml");
@@ -229,7 +247,8 @@ NamedMaterial read_material(const Parameters& parameters, std::string_view key, 
   if (parameters.has(list))
     for (const std::string& change : parameters.texts(list)) {
       const std::size_t sign = change.find('=');
-      if (sign == std::string::npos || sign == 0) parameters.fail(list, fmt::format("found \"{}\", expected \"KEY=VALUE\"", change));
+      if (sign == std::string::npos || sign == 0)
+        parameters.fail(list, fmt::format("found \"{}\", expected \"KEY=VALUE\"", change));
       file.assign(change.substr(0, sign), change.substr(sign + 1), fmt::format("{} of {}", list, parameters.file()));
     }
   for (const MaterialChange& change : changes) file.assign(change.path, change.value, parameters.file());

@@ -3,18 +3,21 @@
 //   name = "6061-T6 aluminium"
 //   why = "..."                          # what was chosen where sources conflict
 //   law = "johnson_cook"                 # elastic | j2 | johnson_cook | drucker_prager
-//   density = { value = 2700, unit = "kg/m^3", source = "..." }      # every constant in this form; the source is a key of the
-//                                                                    # bibliography, or of [sources] in the file itself
-//   [elasticity]        # shear_modulus and bulk_modulus, or young_modulus and poisson_ratio, or shear_modulus and poisson_ratio
-//   [equation_of_state] # kind = "linear" (the bulk modulus above; the default) | "mie_grueneisen": sound_speed, slope, gamma
-//   [strength]          # j2: yield_stress, hardening_modulus; johnson_cook: A, B, n, C, m, reference_rate, reference_temperature,
-//                       # melting_temperature; drucker_prager: friction_angle, cohesion, dilation_angle, tension_limit (optional)
+//   density = { value = 2700, unit = "kg/m^3", source = "..." }   # every constant in this form; the source is a key of the
+//                                                                 # bibliography, or of [sources] in the file itself
+//   [elasticity]        # shear_modulus and bulk_modulus, or young_modulus and poisson_ratio, or shear_modulus and
+//                       # poisson_ratio
+//   [equation_of_state] # kind = "linear" (the bulk modulus above; the default) | "mie_grueneisen": sound_speed, slope,
+//                       # gamma
+//   [strength]          # j2: yield_stress, hardening_modulus; johnson_cook: A, B, n, C, m, reference_rate,
+//                       # reference_temperature, melting_temperature; drucker_prager: friction_angle, cohesion, dilation_angle,
+//                       # tension_limit (optional)
 //   [heating]           # johnson_cook: specific_heat, taylor_quinney (0 is isothermal)
 //   [damage]            # johnson_cook, optional: D1..D5, lowest_triaxiality, highest_triaxiality, least_fracture_strain,
 //                       # softening_length (optional)
 //   cone = "plane_strain"                # drucker_prager: bui | plane_strain | compression | extension
 //   update = "return_map"                # drucker_prager, optional: return_map | rate | rate_printed
-//   [form]              # johnson_cook, optional: eq_9, eq_17, eq_19, eq_21, eq_24, failure = "right" | "printed" (as in the paper)
+//   [form]              # johnson_cook, optional: eq_9, eq_17, eq_19, eq_21, eq_24, failure = "right" | "printed" (the paper)
 #pragma once
 
 #include <string>

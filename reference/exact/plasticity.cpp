@@ -29,10 +29,12 @@ Cone cone(const char* name, double cohesion, double phi, double psi) {
     return {std::tan(phi) / d, 3.0 * cohesion / d, 3.0 * std::sin(psi)};
   }
   if (which == "compression")
-    return {2.0 * std::sin(phi) / (root3 * (3.0 - std::sin(phi))), 6.0 * cohesion * std::cos(phi) / (root3 * (3.0 - std::sin(phi))),
+    return {2.0 * std::sin(phi) / (root3 * (3.0 - std::sin(phi))),
+            6.0 * cohesion * std::cos(phi) / (root3 * (3.0 - std::sin(phi))),
             2.0 * std::sin(psi) / (root3 * (3.0 - std::sin(psi)))};
   if (which == "extension")
-    return {2.0 * std::sin(phi) / (root3 * (3.0 + std::sin(phi))), 6.0 * cohesion * std::cos(phi) / (root3 * (3.0 + std::sin(phi))),
+    return {2.0 * std::sin(phi) / (root3 * (3.0 + std::sin(phi))),
+            6.0 * cohesion * std::cos(phi) / (root3 * (3.0 + std::sin(phi))),
             2.0 * std::sin(psi) / (root3 * (3.0 + std::sin(psi)))};
   if (which == "plane_strain") {
     // Strength and friction as functions of alpha, k at this beta, inverted: both are monotone and linear in k.
@@ -48,11 +50,15 @@ Cone cone(const char* name, double cohesion, double phi, double psi) {
   throw std::invalid_argument("no cone is named " + std::string(which));
 }
 
-double triaxial_compression_strength(const Cone& c, double p) { return (c.k + 3.0 * c.alpha * p) / (1.0 / std::sqrt(3.0) - c.alpha); }
-double triaxial_extension_strength(const Cone& c, double p) { return (c.k + 3.0 * c.alpha * p) / (1.0 / std::sqrt(3.0) + c.alpha); }
+double triaxial_compression_strength(const Cone& c, double p) {
+  return (c.k + 3.0 * c.alpha * p) / (1.0 / std::sqrt(3.0) - c.alpha);
+}
+double triaxial_extension_strength(const Cone& c, double p) {
+  return (c.k + 3.0 * c.alpha * p) / (1.0 / std::sqrt(3.0) + c.alpha);
+}
 
-// In the plane the radius is r = (s1 - s3)/2 and the mean stress -(p + r); s_zz = -2 beta sqrt(J2) since no plastic strain leaves the
-// plane, hence r = sqrt(J2) sqrt(1 - 3 beta^2) and I1/3 = -(p + r) - beta sqrt(J2), in the surface sqrt(J2) + alpha I1 = k.
+// In the plane the radius is r = (s1 - s3)/2 and the mean stress -(p + r); s_zz = -2 beta sqrt(J2) since no plastic strain leaves
+// the plane, hence r = sqrt(J2) sqrt(1 - 3 beta^2) and I1/3 = -(p + r) - beta sqrt(J2), in the surface sqrt(J2) + alpha I1 = k.
 double plane_strain_strength(const Cone& c, double p) {
   const double by_radius = (1.0 - 3.0 * c.alpha * c.beta) / std::sqrt(1.0 - 3.0 * c.beta * c.beta);
   return (c.k + 3.0 * c.alpha * p) / (by_radius - 3.0 * c.alpha);
@@ -82,8 +88,10 @@ Adiabatic johnson_cook_adiabatic(const JohnsonCookConstants& c, double density, 
   return {theta, (c.A + c.B * std::pow(eps, c.n)) * R * (1.0 - std::pow(theta, c.m))};
 }
 
-double johnson_cook_fracture_strain(const std::array<double, 5>& D, double triaxiality, double rate_ratio, double homologous_temperature) {
-  return (D[0] + D[1] * std::exp(D[2] * triaxiality)) * (1.0 + D[3] * std::log(rate_ratio)) * (1.0 + D[4] * homologous_temperature);
+double johnson_cook_fracture_strain(const std::array<double, 5>& D, double triaxiality, double rate_ratio,
+                                    double homologous_temperature) {
+  return (D[0] + D[1] * std::exp(D[2] * triaxiality)) * (1.0 + D[3] * std::log(rate_ratio)) *
+         (1.0 + D[4] * homologous_temperature);
 }
 
 }  // namespace furrow::exact

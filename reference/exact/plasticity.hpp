@@ -36,6 +36,7 @@ struct Adiabatic {
 Adiabatic johnson_cook_adiabatic(const JohnsonCookConstants& c, double density, double rate, double eps);
 
 /// [D1 + D2 exp(D3 s)] [1 + D4 ln(rate ratio)] [1 + D5 T*].
-double johnson_cook_fracture_strain(const std::array<double, 5>& D, double triaxiality, double rate_ratio, double homologous_temperature);
+double johnson_cook_fracture_strain(const std::array<double, 5>& D, double triaxiality, double rate_ratio,
+                                    double homologous_temperature);
 
 }  // namespace furrow::exact

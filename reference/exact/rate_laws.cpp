@@ -110,7 +110,9 @@ RateLaw johnson_cook(const PressureLaw& pressure, double G, const JohnsonCookCon
   return law;
 }
 
-double plastic_strain(const JohnsonCookConstants& c, double hardening) { return std::pow(std::max(0.0, hardening) / c.B, 1.0 / c.n); }
+double plastic_strain(const JohnsonCookConstants& c, double hardening) {
+  return std::pow(std::max(0.0, hardening) / c.B, 1.0 / c.n);
+}
 
 RateLaw drucker_prager(double K, double G, double alpha, double k, double beta) {
   RateLaw law;

@@ -179,9 +179,12 @@ class Follower {
   double event(const Array& y) const {
     const Point p = unpack(y.data());
     switch (system_.mode) {
-      case Mode::elastic: return law_.yield(p) / law_.stress_scale;
-      case Mode::fast: return -law_.yield(p) / law_.stress_scale;
-      case Mode::slow: break;
+      case Mode::elastic:
+        return law_.yield(p) / law_.stress_scale;
+      case Mode::fast:
+        return -law_.yield(p) / law_.stress_scale;
+      case Mode::slow:
+        break;
     }
     const Rates r = system_.rates(p);
     if (r.multiplier < 0.0) return 1.0;

@@ -135,9 +135,10 @@ TEST_CASE("What no material can be is an error that names the constant", "[mater
 }
 
 TEST_CASE("A missing constant is an error that says how one is written", "[material_file]") {
-  const std::string text = "name = \"x\"\nlaw = \"elastic\"\ndensity = { value = 1, unit = \"kg/m^3\", source = \"mine\" }\n"
-                           "[sources.mine]\ntext = \"a test\"\n[elasticity]\n"
-                           "young_modulus = { value = 1, unit = \"Pa\", source = \"mine\" }\n";
+  const std::string text =
+      "name = \"x\"\nlaw = \"elastic\"\ndensity = { value = 1, unit = \"kg/m^3\", source = \"mine\" }\n"
+      "[sources.mine]\ntext = \"a test\"\n[elasticity]\n"
+      "young_modulus = { value = 1, unit = \"Pa\", source = \"mine\" }\n";
   try {
     read_material(Parameters::parse(text, "x.toml"), 0.0);
     FAIL("found no error");
@@ -155,7 +156,9 @@ TEST_CASE("A case names a material beside it, or one that is shipped", "[materia
   fs::remove_all(folder);
   fs::create_directories(folder);
   fs::copy_file(materials / "soil.toml", folder / "clay.toml");
-  const auto named = [&](const std::string& text) { return read_material(Parameters::parse(text, (folder / "case.toml").string()), "material"); };
+  const auto named = [&](const std::string& text) {
+    return read_material(Parameters::parse(text, (folder / "case.toml").string()), "material");
+  };
   CHECK(named("material = \"clay\"").name == "Soil of the paper");
   CHECK(named("material = \"6061-t6\"").name == "6061-T6 aluminium");
   CHECK(std::get<DruckerPrager>(named("material = \"clay\"\nmaterial_set = [\"cone=plane_strain\"]").law).cone.alpha ==

@@ -57,7 +57,8 @@ TEST_CASE("Uniaxial stress: the axial stress is the flow stress at its own plast
     const double eps = plastic_strain(aluminium, end.hardening);
     const double theta = (end.temperature - 294.0) / 631.0;
     const double R = rate > 1.0 ? 1.0 + 0.002 * std::log(rate) : 1.0;
-    CHECK(end.stress[0] == Approx((324e6 + 114e6 * std::pow(eps, 0.42)) * R * (1.0 - std::pow(theta, 1.34))).epsilon(1e-5));   // total rate for plastic rate
+    CHECK(end.stress[0] == Approx((324e6 + 114e6 * std::pow(eps, 0.42)) * R * (1.0 - std::pow(theta, 1.34)))
+                               .epsilon(1e-5));   // total rate for plastic rate
     CHECK(std::abs(end.stress[1]) < 1.0);
     const double plastic_work = end.energy * 2700.0 - end.stress[0] * end.stress[0] / (2.0 * 69e9);
     CHECK((end.temperature - 294.0) * 2700.0 * 896.0 / plastic_work == Approx(0.9).epsilon(3e-3));   // density changes by 0.2 %
@@ -82,7 +83,8 @@ TEST_CASE("Mie-Grueneisen: stiffness is the slope of the pressure, and the Hugon
   const PressureLaw eos{.reference_density = 2700.0, .sound_speed = 5386.0, .slope = 1.339, .gamma = 1.99};
   for (const double rho : {2600.0, 2750.0, 3300.0}) {
     const double h = 1e-4 * rho;
-    CHECK(eos.stiffness(rho) == Approx(rho * (eos.pressure(rho + h, 1e4) - eos.pressure(rho - h, 1e4)) / (2.0 * h)).epsilon(1e-6));
+    CHECK(eos.stiffness(rho) ==
+          Approx(rho * (eos.pressure(rho + h, 1e4) - eos.pressure(rho - h, 1e4)) / (2.0 * h)).epsilon(1e-6));
   }
   const double u = 1500.0, U = 5386.0 + 1.339 * u;
   CHECK(eos.pressure(2700.0 * U / (U - u), 0.5 * u * u) == Approx(2700.0 * U * u).epsilon(1e-12));
@@ -99,7 +101,8 @@ TEST_CASE("Cones: tabulated constants, and strengths that Mohr-Coulomb has where
   CHECK(triaxial_compression_strength(cone("bui", c, phi, 0.0), 0.0) == Approx(9995.0).epsilon(1e-4));
   // Mohr-Coulomb: s1 - s3 = (2 c cos(phi) + 2 p sin(phi))/(1 - sin(phi)), and with (1 + sin(phi)) in extension.
   const double p = 20e3, mohr = 2.0 * c * std::cos(phi) + 2.0 * p * std::sin(phi);
-  CHECK(triaxial_compression_strength(cone("compression", c, phi, 0.0), p) == Approx(mohr / (1.0 - std::sin(phi))).epsilon(1e-12));
+  CHECK(triaxial_compression_strength(cone("compression", c, phi, 0.0), p) ==
+        Approx(mohr / (1.0 - std::sin(phi))).epsilon(1e-12));
   CHECK(triaxial_extension_strength(cone("extension", c, phi, 0.0), p) == Approx(mohr / (1.0 + std::sin(phi))).epsilon(1e-12));
   CHECK(2.0 * plane_strain_strength(cone("plane_strain", c, phi, 0.1), p) == Approx(mohr / (1.0 - std::sin(phi))).epsilon(1e-10));
 }
