@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
       furrow::kernel_family(),
       furrow::operators_family(),
       furrow::material_point_family(),
+      furrow::elastodynamics_family(),
   };
   return furrow::command_line(families, argc, argv);
 }

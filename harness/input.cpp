@@ -176,6 +176,11 @@ Parameters Parameters::read(const std::filesystem::path& file) {
 
 bool Parameters::has(std::string_view key) const { return node_->find(key) != nullptr; }
 
+bool Parameters::is_table(std::string_view key) const {
+  const auto* value = node_->find(key);
+  return value != nullptr && value->is_table();
+}
+
 double Parameters::number(std::string_view key, Range allowed) const {
   const std::string expected = fmt::format("a number, {}", allowed.words());
   return node_->number_in(key, node_->need(key, expected), allowed, expected);

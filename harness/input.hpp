@@ -49,6 +49,7 @@ class Parameters {
   static Parameters read(const std::filesystem::path& file);
 
   bool has(std::string_view key) const;
+  bool is_table(std::string_view key) const;               ///< whether the key is there and holds a table
 
   /// Dimensionless number: a bare TOML number.
   double number(std::string_view key, Range allowed = range::any) const;

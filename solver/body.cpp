@@ -1,6 +1,9 @@
 #include "solver/body.hpp"
 
+#include <Eigen/LU>
+
 #include "solver/schemes/density.hpp"
+#include "solver/schemes/hourglass.hpp"
 #include "solver/schemes/kernel_correction.hpp"
 #include "solver/schemes/velocity_gradient.hpp"
 
@@ -50,7 +53,8 @@ void Body<Dim>::add(const std::vector<Vector<Dim>>& positions, const Vector<Dim>
   for (std::size_t k = 0; k < positions.size(); ++k) {
     const std::size_t i = first + k;
     particles.id[i] = static_cast<std::int32_t>(i);
-    particles.position[i] = positions[k];
+    particles.position[i] = particles.reference_position[i] = positions[k];
+    particles.deformation_gradient[i].setIdentity();
     particles.velocity[i] = velocity;
     particles.mass[i] = initial.density * std::pow(spacing, Dim);
     particles.sound_speed[i] = c;
@@ -87,6 +91,8 @@ void Body<Dim>::find_neighbours() {
   p.mass.resize(extended);
   p.density.resize(extended);
   p.sound_speed.resize(extended);
+  p.reference_position.resize(extended);
+  p.deformation_gradient.resize(extended);
   volume_.resize(extended);
   if (scheme.correction == Correction::linear) linear_.resize(n);
   if (scheme.correction == Correction::quadratic) quadratic_.resize(n);
@@ -125,17 +131,23 @@ void Body<Dim>::fill_images() {
   if (images.empty()) return;
   images.fill_positions(particles.position);
   images.fill_velocities(particles.velocity);
+  images.fill_positions(particles.reference_position);
+  images.fill_tensors(particles.deformation_gradient);
   images.fill(particles.mass);
   images.fill(particles.density);
   images.fill(particles.sound_speed);
 }
 
 template <int Dim>
-CorrectionView<Dim> Body<Dim>::correction() {
-  Particles<Dim>& p = particles;
-  const auto extended = static_cast<std::int64_t>(p.position.size());
+CorrectionView<Dim> Body<Dim>::correction(double ahead) {
+  const Particles<Dim>& p = particles;
+  const auto n = static_cast<std::int64_t>(p.size());
 #pragma omp parallel for schedule(static)
-  for (std::int64_t k = 0; k < extended; ++k) volume_[static_cast<std::size_t>(k)] = p.volume(static_cast<std::size_t>(k));
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    volume_[i] = p.mass[i] / (p.density[i] + ahead * p.density_rate[i]);
+  }
+  images.fill(volume_);
   switch (scheme.correction) {
     case Correction::none:
       return std::monostate{};
@@ -153,7 +165,8 @@ template <int Dim>
 double Body<Dim>::respond(double dt, std::int64_t step) {
   Particles<Dim>& p = particles;
   const Stencil<Dim> s = stencil();
-  correction();
+  // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.
+  correction(0.5 * dt);
   if (scheme.correction != Correction::quadratic)
     furrow::velocity_gradient<Dim>(s, volume_, p.velocity, linear_, velocity_gradient_);
   else if constexpr (Dim == 2)
@@ -167,7 +180,9 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
+      const double before = p.density[i];
       p.density[i] *= std::exp(-velocity_gradient_[i].trace() * dt);
+      p.density_rate[i] = (p.density[i] - before) / dt;
     }
   } else if (scheme.density == DensityEquation::summation) {
     summation_density<Dim>(s, p.mass, p.density);
@@ -187,6 +202,8 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
           const Tensor L = embed<Dim>(velocity_gradient_[i]);
           const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
           set_state(i, next);
+          const Matrix<Dim> half = 0.5 * dt * velocity_gradient_[i], I = Matrix<Dim>::Identity();
+          p.deformation_gradient[i] = (I - half).inverse() * (I + half) * p.deformation_gradient[i];
           p.sound_speed[i] = law.sound_speed(next);
         }
       },
@@ -202,7 +219,8 @@ void Body<Dim>::accelerate(double time, std::span<const Vector<Dim>> velocity) {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
   const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
-  momentum<Dim>(stencil(), p, velocity, correction(), terms, workspace_, p.acceleration, power_);
+  momentum<Dim>(stencil(), p, velocity, correction(0.0), terms, workspace_, p.acceleration, power_);
+  if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
 
   wall_forces_.clear();
   for (const RigidWall<Dim>& wall : walls) wall_forces_.push_back(wall.push(p, spacing, p.acceleration));

@@ -69,7 +69,8 @@ class Body {
  private:
   void find_neighbours();
   void fill_images();
-  CorrectionView<Dim> correction();   // volumes and corrections for where particles are now
+  /// Volumes and corrections for where particles are now, their densities `ahead` of what they are (s).
+  CorrectionView<Dim> correction(double ahead);
 
   NeighbourList neighbours_;
   std::vector<std::int32_t> index_of_id_;

@@ -14,6 +14,7 @@ void Simulation<Dim>::start() {
   body.refresh_neighbours();
   body.accelerate(0.0, p.velocity);
   energy_ = {};
+  initial_internal_ = energy_scale_ = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) initial_internal_ += p.mass[i] * p.internal_energy[i] - stored(i);
   powers_ = powers();
   account(0.0);

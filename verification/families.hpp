@@ -8,5 +8,6 @@ namespace furrow {
 Family kernel_family();      ///< verification/kernel: smoothing kernels, continuous and discrete
 Family operators_family();   ///< verification/operators: SPH sums on given particles, nothing moves
 Family material_point_family();   ///< verification/material-point: one point of material along a prescribed path
+Family elastodynamics_family();   ///< verification/elastodynamics: elastic bodies that move
 
 }  // namespace furrow

@@ -20,8 +20,9 @@ struct Field {
 template <int Dim>
 struct Particles {
   std::vector<std::int32_t> id;
-  std::vector<Vector<Dim>> position, velocity, acceleration, position_at_build;
-  std::vector<double> mass, density;
+  std::vector<Vector<Dim>> position, velocity, acceleration, position_at_build, reference_position;
+  std::vector<Matrix<Dim>> deformation_gradient;
+  std::vector<double> mass, density, density_rate;
   std::vector<Tensor> stress;
   std::vector<double> sound_speed;
   std::vector<double> internal_energy, plastic_strain, plastic_work, temperature, fracture_onset, damage;
@@ -38,8 +39,11 @@ void for_each_field(P& p, Visitor&& visit) {
   visit(Field{"v", "velocity", "m/s", "velocity"}, p.velocity);
   visit(Field{"a", "acceleration", "m/s^2", "acceleration at the end of the last step"}, p.acceleration);
   visit(Field{"x_b", "position_at_build", "m", "position when neighbours were last found"}, p.position_at_build);
+  visit(Field{"X", "reference_position", "m", "position at creation"}, p.reference_position);
+  visit(Field{"F", "deformation_gradient", "1", "deformation since creation"}, p.deformation_gradient);
   visit(Field{"m", "mass", "kg", "mass; per metre of width in plane strain"}, p.mass);
   visit(Field{"rho", "density", "kg/m^3", "density"}, p.density);
+  visit(Field{"drho", "density_rate", "kg/(m^3 s)", "rate of the density over the last step"}, p.density_rate);
   visit(Field{"sigma", "stress", "Pa", "Cauchy stress, tension positive"}, p.stress);
   visit(Field{"c", "sound_speed", "m/s", "longitudinal speed of sound"}, p.sound_speed);
   visit(Field{"e", "internal_energy", "J/kg", "internal energy per mass"}, p.internal_energy);

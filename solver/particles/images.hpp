@@ -20,7 +20,8 @@ struct SymmetryPlane {
 };
 
 /// Images of the particles near some planes, behind the particles proper in every array that neighbours read. Planes must be
-/// perpendicular to each other; near an edge or a corner there are images of images.
+/// perpendicular to each other, or face each other further apart than a particle reaches; near an edge or a corner there are
+/// images of images.
 template <int Dim>
 class Images {
  public:
@@ -28,9 +29,10 @@ class Images {
   explicit Images(std::vector<SymmetryPlane<Dim>> planes) : planes_(std::move(planes)) {
     for (std::size_t a = 0; a < planes_.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
-        if (std::abs(planes_[a].normal.dot(planes_[b].normal)) > 1e-12)
-          throw std::invalid_argument("symmetry planes must be perpendicular to each other");
-    for (std::uint32_t set = 1; set < (1u << planes_.size()); ++set) maps_.push_back(map_of(set));
+        if (!perpendicular(a, b) && planes_[a].normal.dot(planes_[b].normal) > -1.0 + 1e-12)
+          throw std::invalid_argument("symmetry planes must be perpendicular to each other, or face each other");
+    for (std::uint32_t set = 1; set < (1u << planes_.size()); ++set)
+      if (all_perpendicular(set)) maps_.push_back(map_of(set));
   }
 
   bool empty() const { return planes_.empty(); }
@@ -43,11 +45,15 @@ class Images {
     map_.clear();
     count_ = proper.size();
     std::vector<Vector<Dim>> images;
-    for (std::uint32_t m = 0; m < maps_.size(); ++m)
+    for (std::size_t a = 0; a < planes_.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (!perpendicular(a, b) && planes_[a].distance(planes_[b].point) < reach)
+          throw std::invalid_argument("symmetry planes that face each other must be further apart than the reach of a particle");
+    for (std::size_t m = 0; m < maps_.size(); ++m)
       for (std::size_t i = 0; i < proper.size(); ++i) {
         bool near = true;
         for (std::size_t k = 0; k < planes_.size(); ++k)
-          if (((m + 1) >> k & 1u) && planes_[k].distance(proper[i]) >= reach) near = false;
+          if ((maps_[m].set >> k & 1u) && planes_[k].distance(proper[i]) >= reach) near = false;
         if (!near) continue;
         source_.push_back(static_cast<std::int32_t>(i));
         map_.push_back(static_cast<std::uint8_t>(m));
@@ -103,12 +109,20 @@ class Images {
       }
     return turn;
   }
+  bool perpendicular(std::size_t a, std::size_t b) const { return std::abs(planes_[a].normal.dot(planes_[b].normal)) < 1e-12; }
+  bool all_perpendicular(std::uint32_t set) const {
+    for (std::size_t a = 0; a < planes_.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if ((set >> a & 1u) && (set >> b & 1u) && !perpendicular(a, b)) return false;
+    return true;
+  }
   struct Map {
+    std::uint32_t set;    ///< planes that it goes across, one bit each
     Matrix<Dim> turn;     ///< T
     Vector<Dim> shift;    ///< s: the image of x is T x + s
   };
   Map map_of(std::uint32_t set) const {
-    Map m{Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
+    Map m{set, Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
     for (std::size_t k = 0; k < planes_.size(); ++k) {
       if (!(set >> k & 1u)) continue;
       const Vector<Dim>& n = planes_[k].normal;

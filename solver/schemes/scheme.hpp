@@ -30,6 +30,7 @@ struct Scheme {
   int shepard_every = 0;                                 ///< steps between re-normalisations of the density by Eq. 7; 0 = never
   std::optional<ArtificialViscosity> viscosity = ArtificialViscosity{};
   std::optional<ArtificialStress> artificial_stress;
+  double hourglass = 0.0;                                ///< chi of the hourglass control; 0 = off
   double xsph = 0.0;                                     ///< eps of XSPH; 0 = off
   bool energy = true;                                    ///< stress work and viscous heat go into internal energy
 };

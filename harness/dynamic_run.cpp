@@ -1,0 +1,155 @@
+#include "harness/dynamic_run.hpp"
+
+#include <fmt/format.h>
+
+#include "solver/io/particle_snapshot.hpp"
+#include "solver/io/simulation_checkpoint.hpp"
+
+namespace furrow {
+namespace {
+
+constexpr auto checkpoint_interval = std::chrono::seconds(30);
+constexpr std::int64_t steps_between_good_states = 200;
+
+std::vector<HistoryColumn> standard_columns() {
+  return {{"dt", "dt", "s", "length of the last step"},
+          {"limiter", "l", "1", "what limited it: 0 Courant, 1 viscous, 2 force, 3 end of run"},
+          {"kinetic_energy", "E_k", "J", "kinetic energy; per metre of width in plane strain, as all energies"},
+          {"elastic_energy", "E_e", "J", "recoverable energy of the stress state"},
+          {"plastic_work", "E_p", "J", "stress work that is not recoverable"},
+          {"wall_energy", "E_w", "J", "energy in the springs of rigid walls"},
+          {"viscous_dissipation", "E_v", "J", "energy dissipated by artificial viscosity"},
+          {"artificial_stress_work", "E_a", "J", "energy taken up by artificial stress"},
+          {"damping_dissipation", "E_d", "J", "energy taken out by damping"},
+          {"external_work", "E_x", "J", "work of gravity, applied forces and prescribed motion"},
+          {"energy_imbalance", "dE", "1", "sum of all less its initial value, over the largest energy so far"},
+          {"momentum_x", "p_x", "kg m/s", "momentum along x"},
+          {"momentum_y", "p_y", "kg m/s", "momentum along y"},
+          {"angular_momentum", "L_z", "kg m^2/s", "angular momentum about z"}};
+}
+
+template <int Dim>
+std::vector<double> standard_values(const Simulation<Dim>& s) {
+  const EnergyLedger& e = s.energy();
+  const Vector<Dim> p = s.momentum();
+  return {s.dt(),    static_cast<double>(s.limiter()), e.kinetic, e.elastic,  e.plastic,           e.wall, e.viscous,
+          e.artificial, e.damping,                     e.external, s.energy_imbalance(), p[0], p[1], s.angular_momentum()};
+}
+
+}  // namespace
+
+template <int Dim>
+void DynamicRun<Dim>::probe(HistoryColumn column, Probe value) {
+  columns_.push_back(std::move(column));
+  probes_.push_back(std::move(value));
+}
+
+template <int Dim>
+void DynamicRun<Dim>::append_row() {
+  std::vector<double> values = standard_values(simulation_);
+  for (const Probe& probe : probes_) values.push_back(probe(simulation_));
+  history_->append(simulation_.time(), values);
+}
+
+template <int Dim>
+void DynamicRun<Dim>::write_snapshot() {
+  const auto file = run_.folder() / fmt::format("snapshot-{:04d}.vtkhdf", snapshots_++);
+  furrow::write_snapshot(file, particle_snapshot(simulation_.body.particles, simulation_.time()));
+  run_.file("snapshots", file);
+}
+
+template <int Dim>
+void DynamicRun<Dim>::write_checkpoint() {
+  history_->flush();
+  Checkpoint checkpoint = checkpoint_of(simulation_);
+  checkpoint.put_scalar("history_rows", static_cast<std::int64_t>(history_->rows()));
+  checkpoint.put_scalar("snapshots", static_cast<std::int32_t>(snapshots_));
+  checkpoint.put_scalar("next_row", static_cast<std::int32_t>(next_row_));
+  checkpoint.put_scalar("next_snapshot", static_cast<std::int32_t>(next_snapshot_));
+  checkpoint.write(run_.folder() / "checkpoint.h5");
+}
+
+template <int Dim>
+bool DynamicRun<Dim>::resume() {
+  const auto file = run_.folder() / "checkpoint.h5";
+  if (!std::filesystem::exists(file)) return false;
+  const Checkpoint checkpoint = Checkpoint::read(file);
+  resume_from(checkpoint, simulation_);
+  history_.emplace(History::resume(run_.folder() / "history.h5", columns_,
+                                   static_cast<std::size_t>(checkpoint.scalar<std::int64_t>("history_rows"))));
+  next_row_ = checkpoint.scalar<std::int32_t>("next_row");
+  next_snapshot_ = checkpoint.scalar<std::int32_t>("next_snapshot");
+  const int written = checkpoint.scalar<std::int32_t>("snapshots");
+  while (snapshots_ < written) run_.file("snapshots", run_.folder() / fmt::format("snapshot-{:04d}.vtkhdf", snapshots_++));
+  run_.note(fmt::format("Went on from a checkpoint at t = {:.6g} s.", simulation_.time()));
+  return true;
+}
+
+template <int Dim>
+void DynamicRun<Dim>::until(double end, int rows, int snapshots) {
+  std::filesystem::create_directories(run_.folder());
+  std::vector<HistoryColumn> all = standard_columns();
+  all.insert(all.end(), columns_.begin(), columns_.end());
+  columns_ = std::move(all);
+  if (!resume()) {
+    history_.emplace(run_.folder() / "history.h5", columns_);
+    simulation_.start();
+    append_row();
+    write_snapshot();
+  }
+
+  auto good = simulation_.body.particles;
+  double good_time = simulation_.time();
+  auto saved = std::chrono::steady_clock::now();
+  // Rows and snapshots are due at fixed times, so that they do not depend on where a run was interrupted.
+  const auto is_due = [&](int& next, int of) {
+    bool due = false;
+    for (; next <= of && simulation_.time() >= end * next / of; ++next) due = true;
+    return due;
+  };
+  try {
+    while (simulation_.time() < end) {
+      simulation_.step(end);
+      if (is_due(next_row_, rows)) append_row();
+      if (is_due(next_snapshot_, snapshots)) write_snapshot();
+      if (simulation_.steps() % steps_between_good_states == 0) {
+        good = simulation_.body.particles;
+        good_time = simulation_.time();
+        run_.progress(simulation_.time(), end, simulation_.steps());
+      }
+      if (std::chrono::steady_clock::now() - saved > checkpoint_interval) {
+        write_checkpoint();
+        saved = std::chrono::steady_clock::now();
+      }
+    }
+  } catch (const std::runtime_error& error) {
+    history_->flush();
+    const auto file = run_.folder() / "last-good.vtkhdf";
+    furrow::write_snapshot(file, particle_snapshot(good, good_time));
+    throw Divergence(fmt::format("{}; the last good state, t = {:.6g} s, is in {}", error.what(), good_time, file.filename().string()));
+  }
+  history_->flush();
+  std::filesystem::remove(run_.folder() / "checkpoint.h5");
+  run_.file("history", run_.folder() / "history.h5");
+  run_.count(simulation_.steps(), static_cast<long>(simulation_.body.particles.size()));
+}
+
+template <int Dim>
+const std::vector<double>& DynamicRun<Dim>::column(std::string_view name) const {
+  const HistoryTable& table = history();
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (table.columns[c].name == name) return table.values[c];
+  throw std::logic_error("the history has no column " + std::string(name));
+}
+
+template <int Dim>
+double DynamicRun<Dim>::energy_imbalance() const {
+  double largest = 0.0;
+  for (const double imbalance : column("energy_imbalance")) largest = std::max(largest, std::abs(imbalance));
+  return largest;
+}
+
+template class DynamicRun<2>;
+template class DynamicRun<3>;
+
+}  // namespace furrow

@@ -1,0 +1,51 @@
+// A simulation as a case runs it: history.h5 with energies and probes, snapshots, checkpoints from which an interrupted run goes
+// on, progress, and what is left behind when it goes wrong.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "harness/case.hpp"
+#include "solver/io/history.hpp"
+#include "solver/simulation.hpp"
+
+namespace furrow {
+
+template <int Dim>
+class DynamicRun {
+ public:
+  using Probe = std::function<double(const Simulation<Dim>&)>;
+
+  /// The body must be set up; the run starts it, or goes on from a checkpoint in the run's folder.
+  DynamicRun(Run& run, Simulation<Dim>& simulation) : run_(run), simulation_(simulation) {}
+
+  /// A column of the history beside those that every run has.
+  void probe(HistoryColumn column, Probe value);
+
+  /// Runs to `end` with `rows` rows of history and `snapshots` snapshots after the first. Throws Divergence, with a snapshot of
+  /// the last good state in the run's folder.
+  void until(double end, int rows, int snapshots);
+
+  const HistoryTable& history() const { return history_->table(); }
+  /// Column of the history by name; a std::logic_error when there is none.
+  const std::vector<double>& column(std::string_view name) const;
+
+  /// Largest |energy imbalance| seen in the history.
+  double energy_imbalance() const;
+
+ private:
+  void append_row();
+  void write_snapshot();
+  void write_checkpoint();
+  bool resume();
+
+  Run& run_;
+  Simulation<Dim>& simulation_;
+  std::vector<HistoryColumn> columns_;
+  std::vector<Probe> probes_;
+  std::optional<History> history_;
+  int snapshots_ = 0, next_row_ = 1, next_snapshot_ = 1;
+};
+
+}  // namespace furrow

@@ -1,0 +1,64 @@
+#include "harness/scheme_input.hpp"
+
+namespace furrow {
+namespace {
+
+/// A term that is a table of its constants, or false.
+bool is_on(const Parameters& scheme, std::string_view term) {
+  if (!scheme.has(term)) return false;
+  if (!scheme.is_table(term)) {
+    if (scheme.flag(term)) scheme.fail(term, "found true; expected a table of its constants, or false");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Correction read_correction(const Parameters& table) {
+  const std::string correction = table.choice_or("correction", "linear", {"none", "linear", "quadratic"});
+  return correction == "none" ? Correction::none : correction == "linear" ? Correction::linear : Correction::quadratic;
+}
+
+Scheme read_scheme(const Parameters& parameters) {
+  const Parameters in = parameters.table_or_empty("scheme");
+  Scheme scheme;
+  scheme.kernel = *kernel_by_name(in.choice_or("kernel", "wendland_c2", kernel_names()));
+  scheme.correction = read_correction(in);
+  const std::string density = in.choice_or("density", "continuity", {"continuity", "shepard", "summation"});
+  scheme.density = density == "continuity" ? DensityEquation::continuity
+                   : density == "shepard"  ? DensityEquation::shepard
+                                           : DensityEquation::summation;
+  scheme.shepard_every = static_cast<int>(in.integer_or("shepard_every", 0, 0, 1'000'000));
+  scheme.viscosity.reset();
+  if (is_on(in, "viscosity")) {
+    const Parameters viscosity = in.table("viscosity");
+    scheme.viscosity = ArtificialViscosity{viscosity.number("alpha", range::not_negative), viscosity.number("beta", range::not_negative)};
+  }
+  scheme.artificial_stress.reset();
+  if (is_on(in, "artificial_stress")) {
+    const Parameters artificial = in.table("artificial_stress");
+    scheme.artificial_stress = ArtificialStress{artificial.number("eps", range::not_negative), artificial.number("n", range::positive)};
+  }
+  scheme.hourglass = in.number_or("hourglass", 0.0, {0.0, 10.0});
+  scheme.xsph = in.number_or("xsph", 0.0, {0.0, 1.0});
+  scheme.energy = in.flag_or("energy", true);
+  return scheme;
+}
+
+void exercise(Run& run, const Scheme& scheme) {
+  run.exercises("smoothing/" + std::string(std::visit([](auto k) { return decltype(k)::name; }, scheme.kernel)));
+  run.exercises("schemes/velocity_gradient");
+  run.exercises("schemes/momentum");
+  if (scheme.correction == Correction::linear) run.exercises("schemes/kernel_correction");
+  if (scheme.correction == Correction::quadratic) run.exercises("schemes/quadratic_gradient");
+  if (scheme.density != DensityEquation::continuity || scheme.shepard_every > 0) run.exercises("schemes/density");
+  if (scheme.viscosity) run.exercises("schemes/viscosity");
+  if (scheme.artificial_stress) run.exercises("schemes/artificial_stress");
+  if (scheme.hourglass > 0.0) run.exercises("schemes/hourglass");
+  if (scheme.xsph > 0.0) run.exercises("schemes/xsph");
+  run.exercises("integrators/step_control");
+  run.exercises("simulation");
+}
+
+}  // namespace furrow

@@ -1,0 +1,25 @@
+// The numerical choices of a case, by name:
+//
+//   scheme = { kernel = "wendland_c2", correction = "linear", density = "continuity", viscosity = { alpha = 1, beta = 2 },
+//              artificial_stress = { eps = 0.3, n = 4 }, hourglass = 0.1, xsph = 0.5, shepard_every = 20, energy = true }
+//
+// correction: none (the paper's form) | linear | quadratic; density: continuity | shepard | summation. Viscosity, artificial
+// stress, hourglass control and XSPH are off where they are not named; each may be switched off by name as well (viscosity = false).
+#pragma once
+
+#include "harness/case.hpp"
+#include "harness/input.hpp"
+#include "solver/schemes/scheme.hpp"
+
+namespace furrow {
+
+/// The table `scheme` of a case's parameters; the smoothing ratio comes with the resolution.
+Scheme read_scheme(const Parameters& parameters);
+
+/// The key `correction` of a table, for cases that sweep over it.
+Correction read_correction(const Parameters& table);
+
+/// Tells the run which modules a scheme puts to work.
+void exercise(Run& run, const Scheme& scheme);
+
+}  // namespace furrow

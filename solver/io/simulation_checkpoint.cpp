@@ -1,0 +1,90 @@
+#include "solver/io/simulation_checkpoint.hpp"
+
+#include <stdexcept>
+
+namespace furrow {
+namespace {
+
+/// Calls visit(name, number) for each number of the clock; the one list that writing and reading share.
+template <class Clock, class Visit>
+void for_each_number(Clock& c, Visit&& visit) {
+  visit("time", c.time);
+  visit("dt", c.dt);
+  visit("first_dt", c.first_dt);
+  visit("compression", c.compression);
+  visit("initial_energy", c.initial_energy);
+  visit("energy_scale", c.energy_scale);
+  visit("initial_internal", c.initial_internal);
+  visit("deposited", c.deposited);
+  visit("energy.kinetic", c.energy.kinetic);
+  visit("energy.elastic", c.energy.elastic);
+  visit("energy.plastic", c.energy.plastic);
+  visit("energy.wall", c.energy.wall);
+  visit("energy.viscous", c.energy.viscous);
+  visit("energy.artificial", c.energy.artificial);
+  visit("energy.damping", c.energy.damping);
+  visit("energy.contact", c.energy.contact);
+  visit("energy.external", c.energy.external);
+  visit("power.viscous", c.powers.viscous);
+  visit("power.artificial", c.powers.artificial);
+  visit("power.damping", c.powers.damping);
+  visit("power.external", c.powers.external);
+}
+
+}  // namespace
+
+template <int Dim>
+Checkpoint checkpoint_of(const Simulation<Dim>& simulation) {
+  Checkpoint checkpoint;
+  const Particles<Dim>& p = simulation.body.particles;
+  const auto n = static_cast<std::ptrdiff_t>(p.size());
+  for_each_field(p, [&](const Field& field, const auto& array) {
+    using Element = typename std::remove_cvref_t<decltype(array)>::value_type;
+    if constexpr (std::is_arithmetic_v<Element>) {
+      checkpoint.put_array(std::string(field.name), std::vector<Element>(array.begin(), array.begin() + n));
+    } else {
+      std::vector<double> flat;
+      for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const Element& element = array[static_cast<std::size_t>(i)];
+        flat.insert(flat.end(), element.data(), element.data() + element.size());
+      }
+      checkpoint.put_array(std::string(field.name), std::move(flat));
+    }
+  });
+  const auto clock = simulation.clock();
+  for_each_number(clock, [&](const char* name, double value) { checkpoint.put_scalar(name, value); });
+  checkpoint.put_scalar("steps", clock.steps);
+  checkpoint.put_scalar("limiter", static_cast<std::int32_t>(clock.limiter));
+  return checkpoint;
+}
+
+template <int Dim>
+void resume_from(const Checkpoint& checkpoint, Simulation<Dim>& simulation) {
+  Particles<Dim>& p = simulation.body.particles;
+  const std::size_t n = p.size();
+  resize(p, n);
+  for_each_field(p, [&](const Field& field, auto& array) {
+    using Element = typename std::remove_cvref_t<decltype(array)>::value_type;
+    const auto& values = checkpoint.array<std::conditional_t<std::is_arithmetic_v<Element>, Element, double>>(std::string(field.name));
+    constexpr std::size_t components = sizeof(Element) / sizeof(values[0]);
+    if (values.size() != n * components)
+      throw std::out_of_range("the checkpoint has " + std::to_string(values.size() / components) + " particles in " +
+                              std::string(field.name) + ", the case " + std::to_string(n));
+    if constexpr (std::is_arithmetic_v<Element>)
+      array = values;
+    else
+      for (std::size_t i = 0; i < n; ++i) std::copy_n(values.data() + i * components, components, array[i].data());
+  });
+  typename Simulation<Dim>::Clock clock;
+  for_each_number(clock, [&](const char* name, double& value) { value = checkpoint.scalar<double>(name); });
+  clock.steps = checkpoint.scalar<std::int64_t>("steps");
+  clock.limiter = static_cast<StepLimiter>(checkpoint.scalar<std::int32_t>("limiter"));
+  simulation.resume(clock);
+}
+
+template Checkpoint checkpoint_of<2>(const Simulation<2>&);
+template Checkpoint checkpoint_of<3>(const Simulation<3>&);
+template void resume_from<2>(const Checkpoint&, Simulation<2>&);
+template void resume_from<3>(const Checkpoint&, Simulation<3>&);
+
+}  // namespace furrow
