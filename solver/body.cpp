@@ -29,7 +29,9 @@ MaterialState Body<Dim>::state(std::size_t i) const {
   s.internal_energy = p.internal_energy[i];
   s.plastic_strain = p.plastic_strain[i];
   s.temperature = p.temperature[i];
+  s.plastic_work = p.plastic_work[i];
   s.damage = p.damage[i];
+  s.fracture_onset = p.fracture_onset[i];
   return s;
 }
 
@@ -41,7 +43,9 @@ void Body<Dim>::set_state(std::size_t i, const MaterialState& s) {
   p.internal_energy[i] = s.internal_energy;
   p.plastic_strain[i] = s.plastic_strain;
   p.temperature[i] = s.temperature;
+  p.plastic_work[i] = s.plastic_work;
   p.damage[i] = s.damage;
+  p.fracture_onset[i] = s.fracture_onset;
 }
 
 template <int Dim>
