@@ -1,0 +1,155 @@
+// The time loop: restarts and threads change no bit, free bodies keep their momenta, and a run that goes wrong says where.
+#include <omp.h>
+
+#include <cstring>
+
+#include "solver/io/simulation_checkpoint.hpp"
+#include "solver/simulation.hpp"
+#include "tests/catch.hpp"
+
+using namespace furrow;
+
+namespace {
+
+/// A rubber block that is struck, between a symmetry plane and a wall, with every optional term switched on.
+Simulation<2> struck_block() {
+  Simulation<2> simulation;
+  Body<2>& body = simulation.body;
+  body.material = LinearElastic::from_young(1000.0, 2e6, 0.4);
+  body.spacing = 0.01;
+  body.scheme.smoothing_ratio = 1.3;
+  body.scheme.artificial_stress = ArtificialStress{};
+  body.scheme.hourglass = 0.1;
+  body.scheme.xsph = 0.2;
+  body.scheme.shepard_every = 7;
+  std::vector<Vector<2>> centres;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 9; ++j) centres.push_back(0.01 * Vector<2>(i + 0.5, j + 0.5));
+  body.add(centres, {3.0, -1.0});
+  for (std::size_t i = 0; i < body.particles.size(); ++i) body.particles.velocity[i][0] += 20.0 * body.particles.position[i][1];
+  body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {0.0, 1.0}}});
+  body.walls.push_back({{0.125, 0.0}, {-1.0, 0.0}, 8e6});
+  return simulation;
+}
+
+/// Every field of the table, bit for bit.
+bool same(const Simulation<2>& a, const Simulation<2>& b) {
+  const std::size_t n = a.body.particles.size();
+  bool equal = n == b.body.particles.size() && a.time() == b.time() && a.energy().total() == b.energy().total();
+  std::vector<std::vector<std::byte>> bytes;
+  for_each_field(a.body.particles, [&](const Field&, const auto& array) {
+    const auto* data = reinterpret_cast<const std::byte*>(array.data());
+    bytes.emplace_back(data, data + n * sizeof(array[0]));
+  });
+  std::size_t k = 0;
+  for_each_field(b.body.particles, [&](const Field&, const auto& array) {
+    equal = equal && std::memcmp(array.data(), bytes[k++].data(), n * sizeof(array[0])) == 0;
+  });
+  return equal;
+}
+
+/// What the Divergence says that `run` ends in; empty when it does not.
+template <class F>
+std::string message_of(F&& run) {
+  try {
+    run();
+  } catch (const Divergence& divergence) {
+    return divergence.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a restart from a checkpoint is bit for bit the run that was never stopped", "[simulation]") {
+  Simulation<2> whole = struck_block();
+  whole.start();
+  for (int k = 0; k < 150; ++k) whole.step(1.0);
+  const auto builds = whole.body.builds();
+  const Checkpoint checkpoint = checkpoint_of(whole);
+  for (int k = 0; k < 150; ++k) whole.step(1.0);
+  REQUIRE(whole.body.builds() > builds);   // neighbours were found anew after the checkpoint as well
+
+  Simulation<2> resumed = struck_block();
+  resume_from(checkpoint, resumed);
+  for (int k = 0; k < 150; ++k) resumed.step(1.0);
+  CHECK(same(whole, resumed));
+}
+
+TEST_CASE("one and several threads give the same bits", "[simulation]") {
+  const auto run = [](int threads) {
+    omp_set_num_threads(threads);
+    Simulation<2> simulation = struck_block();
+    simulation.start();
+    for (int k = 0; k < 120; ++k) simulation.step(1.0);
+    return simulation;
+  };
+  const int before = omp_get_max_threads();
+  const Simulation<2> one = run(1), two = run(2), three = run(3);
+  omp_set_num_threads(before);
+  CHECK(same(one, two));
+  CHECK(same(one, three));
+}
+
+TEST_CASE("a free body keeps momentum, angular momentum and energy", "[simulation]") {
+  Simulation<2> simulation = struck_block();
+  simulation.body.walls.clear();
+  simulation.body.images = {};
+  simulation.body.scheme.xsph = 0.0;
+  simulation.body.scheme.shepard_every = 0;
+  simulation.body.scheme.artificial_stress.reset();
+  simulation.start();
+  const Vector<2> p = simulation.momentum();
+  const double L = simulation.angular_momentum();
+  for (int k = 0; k < 300; ++k) simulation.step(1.0);
+  CHECK((simulation.momentum() - p).norm() < 1e-12 * p.norm());
+  CHECK(std::abs(simulation.angular_momentum() - L) < 1e-10 * std::abs(L));
+  CHECK(std::abs(simulation.energy_imbalance()) < 1e-3);
+}
+
+TEST_CASE("a wall gives back what a bar brings, and only while they touch", "[simulation]") {
+  Simulation<2> simulation = struck_block();
+  simulation.start();
+  double largest = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    simulation.step(1.0);
+    largest = std::max(largest, simulation.body.wall_forces()[0]);
+    CHECK(simulation.body.wall_forces()[0] >= 0.0);
+  }
+  CHECK(largest > 0.0);
+}
+
+TEST_CASE("a run that goes wrong says when, where and in which field", "[simulation]") {
+  SECTION("a particle leaves the domain") {
+    Simulation<2> simulation = struck_block();
+    simulation.watch.high = {0.12, 1.0};
+    simulation.start();
+    const std::string message = message_of([&] { simulation.run_until(1.0); });
+    CHECK(message.starts_with("t = "));
+    CHECK(message.find("particle") != std::string::npos);
+    CHECK(message.find("position has left the domain") != std::string::npos);
+  }
+  SECTION("a Courant number of 3") {
+    Simulation<2> simulation = struck_block();
+    simulation.control.courant = 3.0;
+    simulation.control.force = 1e9;
+    simulation.start();
+    CHECK_THROWS_AS(simulation.run_until(1.0), Divergence);
+  }
+  SECTION("a number that is none") {
+    Simulation<2> simulation = struck_block();
+    simulation.start();
+    simulation.step(1.0);
+    simulation.body.particles.stress[5](0, 0) = std::nan("");
+    CHECK(message_of([&] { simulation.step(1.0); }).find("is not finite") != std::string::npos);
+  }
+}
+
+TEST_CASE("a checkpoint of other particles is refused", "[simulation]") {
+  Simulation<2> simulation = struck_block();
+  simulation.start();
+  const Checkpoint checkpoint = checkpoint_of(simulation);
+  Simulation<2> other = struck_block();
+  other.body.add({{1.0, 1.0}});
+  CHECK_THROWS_AS(resume_from(checkpoint, other), std::out_of_range);
+}
