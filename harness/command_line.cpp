@@ -174,7 +174,9 @@ class CommandLine {
     CLI::App* sub = command("run", "Run the named cases and report",
                             "./furrow run kernel/continuous-cubic-spline-2d --set parameters.smoothing_length.value=2");
     sub->add_option("case", selection_.ids, "Ids of cases, or patterns")->type_name("CASE");
-    sub->add_option("--case-file", selection_.case_files, "Cases from outside the repository")->type_name("FILE");
+    sub->add_option("--case-file", selection_.case_files, "Cases from outside the repository")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
     sub->add_option("--set", options_.overrides, "Change a key of the cases: parameters.X, resolution.X or time_limit")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);

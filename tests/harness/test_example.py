@@ -36,6 +36,11 @@ def test_it_passes_on_both_metrics(tmp_path):
     assert {m["name"]: m["verdict"] for m in result["metrics"]} == {"wave_speed": "pass", "gradient_norm": "pass"}
 
 
+def test_a_case_may_be_named_behind_its_file(tmp_path):
+    ended = run(FURROW, "run", "--case-file", EXAMPLE, CASE, "--no-report", "--out", tmp_path / "run")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("right, wrong, red", [("0.90734", "0.90735", "wave_speed"), ("0.998327", "0.998328", "gradient_norm")])
 def test_one_wrong_digit_is_red(tmp_path, right, wrong, red):
     text = EXAMPLE.read_text()
