@@ -13,7 +13,7 @@
 //   description = "..."                         # a paragraph: the problem as a mechanician tells it
 //   tier = "smoke"                              # smoke | quick | nightly | full
 //   time_limit = { value = 60, unit = "s" }     # optional; default 60 s, 5 min, 60 min, 6 h by tier
-//   sources = ["fang-2024"]                     # optional; citations beside those of the metrics
+//   sources = ["tillage-tools-2024"]                     # optional; citations beside those of the metrics
 //   sweep = { kernel = ["cubic_spline"], dimension = [1, 2, 3] }    # optional; an instance a combination of parameters
 //   parameters = { ... }                        # what the problem asks for
 //   resolution = { spacing = { value = [4, 2, 1], unit = "mm" }, h_over_dx = [1.2, 1.5] }   # optional; a run a pair

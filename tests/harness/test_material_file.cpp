@@ -94,7 +94,7 @@ TEST_CASE("The paper's forms and another cone are a change of one key", "[materi
 
 TEST_CASE("What no material can be is an error that names the constant", "[material_file]") {
   const auto value = [](const std::string& number, const std::string& unit) {
-    return "{ value = " + number + ", unit = \"" + unit + "\", source = \"fang-2024\" }";
+    return "{ value = " + number + ", unit = \"" + unit + "\", source = \"tillage-tools-2024\" }";
   };
   struct Wrong {
     std::string file, key, value, words;

@@ -23,8 +23,8 @@ const std::vector<Variant> metal_variants{
     {"failure", "failure zeroes shear only", {{"form.failure", "printed"}}},
     {"table_1",
      "Table 1: N and C interchanged",
-     {{"strength.n", R"({ value = 0.002, unit = "1", source = "fang-2024" })"},
-      {"strength.C", R"({ value = 0.42, unit = "1", source = "fang-2024" })"}}},
+     {{"strength.n", R"({ value = 0.002, unit = "1", source = "tillage-tools-2024" })"},
+      {"strength.C", R"({ value = 0.42, unit = "1", source = "tillage-tools-2024" })"}}},
 };
 
 struct Fate {
