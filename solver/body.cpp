@@ -229,11 +229,12 @@ void Body<Dim>::accelerate(double time, std::span<const Vector<Dim>> velocity) {
   wall_forces_.clear();
   for (const RigidWall<Dim>& wall : walls) wall_forces_.push_back(wall.push(p, spacing, p.acceleration));
   external_power_ = damping_power_ = 0.0;
-  if (loads.damping > 0.0 || !loads.gravity.isZero(0.0))
+  const double damping = time < loads.damping_end ? loads.damping : 0.0;
+  if (damping > 0.0 || !loads.gravity.isZero(0.0))
     for (std::size_t i = 0; i < n; ++i) {
-      p.acceleration[i] += loads.gravity - loads.damping * velocity[i];
+      p.acceleration[i] += loads.gravity - damping * velocity[i];
       external_power_ += p.mass[i] * loads.gravity.dot(velocity[i]);
-      damping_power_ += p.mass[i] * loads.damping * velocity[i].squaredNorm();
+      damping_power_ += p.mass[i] * damping * velocity[i].squaredNorm();
     }
   for (const AppliedForce<Dim>& load : loads.forces) {
     double mass = 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ template <int Dim>
 struct Loads {
   Vector<Dim> gravity = Vector<Dim>::Zero();          ///< m/s^2
   double damping = 0.0;                               ///< 1/s: acceleration -damping v, to reach rest; 0 = none
+  double damping_end = std::numeric_limits<double>::infinity();   ///< s; from then on there is no damping
   std::vector<PrescribedMotion<Dim>> motions;
   std::vector<AppliedForce<Dim>> forces;
 };

@@ -5,7 +5,7 @@ namespace furrow {
 template <int Dim>
 void hourglass_control(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, double chi,
                        std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
-  const double h = stencil.smoothing_length;
+  const double h = stencil.smoothing_length, reach = support(stencil.kernel) * h, reach2 = reach * reach;
   for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
     const LaneVector<Dim> X_i = broadcast<Dim>(p.reference_position[i]), v_i = broadcast<Dim>(velocity[i]);
     const LaneMatrix<Dim> F_i = broadcast<Dim>(p.deformation_gradient[i]);
@@ -18,10 +18,12 @@ void hourglass_control(const Stencil<Dim>& stencil, const Particles<Dim>& p, std
       const Lanes rho_j = gather(p.density.data(), pair.j), c_j = gather(p.sound_speed.data(), pair.j);
       const Lanes modulus = 0.5 * (modulus_i + rho_j * c_j * c_j);
       const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
-      const Lanes stiffness = modulus * W * gather(p.mass.data(), pair.j) / (rho_j * (dot(X_ij, X_ij) + 1e-300));
+      const Lanes X2 = dot(X_ij, X_ij);
+      const Lanes stiffness = modulus * W * gather(p.mass.data(), pair.j) / (rho_j * (X2 + 1e-300));
       const Lanes along = dot(delta, pair.x_ij) / (pair.r * pair.r);
       const Lanes factor = broadcast(-chi / p.density[i]) * stiffness * along;
-      const LaneVector<Dim> f = (pair.r > 1e-140 ? factor : Lanes{}) * pair.x_ij;   // not the padding with the particle itself
+      // Neither the padding with the particle itself, nor what came near only later: it was never one piece with the particle.
+      const LaneVector<Dim> f = ((pair.r > 1e-140) & (X2 < reach2) ? factor : Lanes{}) * pair.x_ij;
       a += f;
       taken += dot(f, v_i - gather<Dim>(velocity.data(), pair.j));
     });
