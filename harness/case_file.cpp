@@ -226,12 +226,6 @@ void check_metrics(const std::vector<Parameters>& blocks, const CaseSpec& spec) 
   }
 }
 
-std::string fnv1a(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", hash);
-}
-
 using Combination = std::map<std::string, std::size_t>;   // sweep key -> index of its value
 
 std::vector<Combination> combinations(const Parameters& at) {
@@ -329,7 +323,7 @@ CaseSpec read_instance(const Parameters& block, const Combination& combination, 
   at.check_all_used();
   parameters.check_all_used();
   spec.parameters_json = parameters.json();
-  spec.fingerprint = fnv1a(at.json());
+  spec.fingerprint = fingerprint(at.json() + parameters.dependencies());
   return spec;
 }
 

@@ -113,7 +113,7 @@ struct CaseSpec {
   std::vector<std::string> overrides;      ///< --set KEY=VALUE
   Problem run;
   std::filesystem::path file;
-  std::string fingerprint;                 ///< hash of the instance as read: equal inputs, equal fingerprint
+  std::string fingerprint;                 ///< hash of the instance and the files that it reads: equal inputs, equal fingerprint
 };
 
 /// Overrides of the command line ("parameters.kernel=wendland_c2") and the ids of the cases that they apply to.

@@ -1,14 +1,27 @@
 #include "harness/dynamic_run.hpp"
 
+#include <cstdlib>
+
 #include <fmt/format.h>
 
+#include "harness/input.hpp"
+#include "solver/io/file.hpp"
 #include "solver/io/particle_snapshot.hpp"
 #include "solver/io/simulation_checkpoint.hpp"
 
 namespace furrow {
 namespace {
 
-constexpr auto checkpoint_interval = std::chrono::seconds(30);
+/// Wall time between checkpoints: 30 s, or as many seconds as FURROW_CHECKPOINT_INTERVAL says.
+std::chrono::duration<double> checkpoint_interval() {
+  const char* text = std::getenv("FURROW_CHECKPOINT_INTERVAL");
+  if (text == nullptr) return std::chrono::seconds(30);
+  char* end = nullptr;
+  const double seconds = std::strtod(text, &end);
+  if (end == text || *end != '\0' || !(seconds >= 0.0))
+    throw InputError("FURROW_CHECKPOINT_INTERVAL", 0, "", fmt::format("found \"{}\", expected seconds of wall time, 0 or more", text));
+  return std::chrono::duration<double>(seconds);
+}
 constexpr std::int64_t steps_between_good_states = 200;
 
 std::vector<HistoryColumn> standard_columns() {
@@ -73,13 +86,18 @@ template <int Dim>
 bool DynamicRun<Dim>::resume() {
   const auto file = run_.folder() / "checkpoint.h5";
   if (!std::filesystem::exists(file)) return false;
-  const Checkpoint checkpoint = Checkpoint::read(file);
-  resume_from(checkpoint, simulation_);
-  history_.emplace(History::resume(run_.folder() / "history.h5", columns_,
-                                   static_cast<std::size_t>(checkpoint.scalar<std::int64_t>("history_rows"))));
-  next_row_ = checkpoint.scalar<std::int32_t>("next_row");
-  next_snapshot_ = checkpoint.scalar<std::int32_t>("next_snapshot");
-  const int written = checkpoint.scalar<std::int32_t>("snapshots");
+  int written = 0;
+  try {
+    const Checkpoint checkpoint = Checkpoint::read(file);
+    resume_from(checkpoint, simulation_);
+    history_.emplace(History::resume(run_.folder() / "history.h5", columns_,
+                                     static_cast<std::size_t>(checkpoint.scalar<std::int64_t>("history_rows"))));
+    next_row_ = checkpoint.scalar<std::int32_t>("next_row");
+    next_snapshot_ = checkpoint.scalar<std::int32_t>("next_snapshot");
+    written = checkpoint.scalar<std::int32_t>("snapshots");
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("cannot go on from {}: {}; remove it, and the case begins anew", file.string(), error.what()));
+  }
   while (snapshots_ < written) run_.file("snapshots", run_.folder() / fmt::format("snapshot-{:04d}.vtkhdf", snapshots_++));
   run_.note(fmt::format("Went on from a checkpoint at t = {:.6g} s.", simulation_.time()));
   return true;
@@ -101,6 +119,7 @@ void DynamicRun<Dim>::until(double end, int rows, int snapshots) {
   auto good = simulation_.body.particles;
   double good_time = simulation_.time();
   auto saved = std::chrono::steady_clock::now();
+  const auto interval = checkpoint_interval();
   // Rows and snapshots are due at fixed times, so that they do not depend on where a run was interrupted.
   const auto is_due = [&](int& next, int of) {
     bool due = false;
@@ -117,11 +136,13 @@ void DynamicRun<Dim>::until(double end, int rows, int snapshots) {
         good_time = simulation_.time();
         run_.progress(simulation_.time(), end, simulation_.steps());
       }
-      if (std::chrono::steady_clock::now() - saved > checkpoint_interval) {
+      if (std::chrono::steady_clock::now() - saved > interval) {
         write_checkpoint();
         saved = std::chrono::steady_clock::now();
       }
     }
+  } catch (const FileError&) {
+    throw;   // the disk's trouble, not the run's: what is there already stays
   } catch (const std::runtime_error& error) {
     history_->flush();
     const auto file = run_.folder() / "last-good.vtkhdf";

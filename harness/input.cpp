@@ -91,6 +91,12 @@ constexpr std::string_view unit_example(Dimension d) {
 
 }  // namespace
 
+std::string fingerprint(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
 struct Parameters::Node {
   toml::table table;
   std::string path;    // of this table in its file, for messages
@@ -98,6 +104,7 @@ struct Parameters::Node {
   Places places;
   std::set<std::string, std::less<>> asked;                          // keys that were asked for, present or not
   std::map<std::string, std::shared_ptr<Node>, std::less<>> tables;  // those handed out, so that all copies share one record
+  std::map<std::string, std::string> files;                          // name and hash of files that were read besides
 
   Place place_of(std::string_view key) const {
     const auto it = places.find(key);
@@ -414,6 +421,7 @@ Parameters Parameters::copy() const {
   auto node = std::make_shared<Node>(*node_);
   node->asked.clear();
   node->tables.clear();
+  node->files.clear();
   return Parameters(std::move(node));
 }
 
@@ -478,6 +486,21 @@ std::string Parameters::json() const {
   std::ostringstream out;
   out << toml::json_formatter(node_->table);
   return out.str();
+}
+
+void Parameters::depends_on(const std::filesystem::path& file) const {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in.is_open() || in.bad()) throw InputError(file.string(), 0, "", "cannot be read, expected a file that this user may read");
+  node_->files[file.filename().string()] += fingerprint(text.view());
+}
+
+std::string Parameters::dependencies() const {
+  std::string all;
+  for (const auto& [name, hash] : node_->files) all += fmt::format("{} {}\n", name, hash);
+  for (const auto& [key, below] : node_->tables) all += Parameters(below).dependencies();
+  return all;
 }
 
 }  // namespace furrow

@@ -22,6 +22,9 @@ class InputError : public std::runtime_error {
   InputError(std::string_view file, int line, std::string_view key, std::string_view message);
 };
 
+/// Hash of a text as 16 hexadecimal digits (64-bit FNV-1a).
+std::string fingerprint(std::string_view text);
+
 /// The word of the list that `word` was most likely meant to be; empty when none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
@@ -99,6 +102,11 @@ class Parameters {
   /// Puts a value written as TOML at a dotted path; text that is no TOML value is taken as a string.
   void assign(std::string_view path, std::string_view value, const std::string& origin);
   std::string json() const;                     ///< the table as it was read
+
+  /// Says that what this table describes depends on the contents of another file (a material, data) as well.
+  void depends_on(const std::filesystem::path& file) const;
+  /// Names and hashes of those files as they were then, of this table and those asked for below it: equal inputs, equal text.
+  std::string dependencies() const;
 
   struct Node;
   explicit Parameters(std::shared_ptr<Node> node) : node_(std::move(node)) {}

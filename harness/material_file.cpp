@@ -243,6 +243,7 @@ NamedMaterial read_material(const Parameters& parameters, std::string_view key, 
     parameters.fail(key, fmt::format("found \"{0}\", expected {0}.toml beside this file or in reference/materials", word));
 
   Parameters file = Parameters::read(path);
+  parameters.depends_on(path);
   const std::string list = fmt::format("{}_set", key);
   if (parameters.has(list))
     for (const std::string& change : parameters.texts(list)) {

@@ -69,6 +69,13 @@ bool may_be_kept(const Json& result, const CaseSpec& spec, const Json& provenanc
   return same("commit") && same("program") && made.value("inputs", "") == spec.fingerprint;
 }
 
+// What makes two runs of a case the same computation. Written into its folder before it begins, so that a later run knows whether
+// a checkpoint there is its own.
+Json identity(const CaseSpec& spec, const Json& provenance) {
+  return {{"case", spec.id}, {"commit", provenance.at("commit")}, {"program", provenance.at("program")}, {"inputs", spec.fingerprint}};
+}
+constexpr const char* identity_file = "begun.json";
+
 // What the last run says that a case takes; empty where it says nothing.
 std::optional<double> expected_seconds(const CaseSpec& spec) {
   const Json earlier = read_json(project_root() / "runs/latest" / spec.id / "result.json");
@@ -131,7 +138,7 @@ class Runner {
         expected.erase(spec.id);
         continue;
       }
-      fs::remove_all(folder_ / spec.id);
+      prepare_place(spec);
       waiting.push_back(&spec);
     }
     const auto at_most = [&](const CaseSpec* spec) { return expected[spec->id].value_or(spec->time_limit); };
@@ -169,9 +176,21 @@ class Runner {
     }
   }
 
+  // An empty folder for the case; or, to go on, the one that the same computation has left, without its result.
+  void prepare_place(const CaseSpec& spec) const {
+    const fs::path place = folder_ / spec.id;
+    const Json ours = identity(spec, provenance_);
+    if (options_.resume && read_json(place / identity_file) == ours) {
+      fs::remove(place / "result.json");
+      return;
+    }
+    fs::remove_all(place);
+    fs::create_directories(place);
+    write_json(place / identity_file, ours);
+  }
+
   Child start(const CaseSpec& spec) const {
     const fs::path place = folder_ / spec.id;
-    fs::create_directories(place);
     const std::string threads = std::to_string(options_.threads);
     return Child(
         {fs::read_symlink("/proc/self/exe").string(), "run-case", folder_.string(), fs::absolute(spec.file).string(), spec.id},

@@ -1,6 +1,10 @@
 #include "harness/input.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <string>
+
+#include <unistd.h>
 
 #include "tests/catch.hpp"
 
@@ -142,4 +146,21 @@ TEST_CASE("Values taken over from a sweep or the command line keep the place the
   CHECK_THROWS_AS(changed.assign("ratio.x", "1", "--set"), InputError);
   CHECK(p.text("kernel") == "cubic_spline");
   CHECK(p.table("material").quantity("density", dimension::density) == Approx(8960));
+}
+
+TEST_CASE("Files that a table depends on are part of what it says, wherever below it they were read", "[input]") {
+  const auto file = std::filesystem::temp_directory_path() / ("furrow-depends-" + std::to_string(::getpid()) + ".csv");
+  const auto written = [&](const char* text) {
+    std::ofstream(file) << text;
+    const Parameters p = sample();
+    p.table("material").depends_on(file);
+    return p.dependencies();
+  };
+  const std::string first = written("1, 2");
+  CHECK(!first.empty());
+  CHECK(written("1, 2") == first);
+  CHECK(written("1, 3") != first);
+  CHECK(sample().dependencies().empty());
+  std::filesystem::remove(file);
+  CHECK_THROWS_AS(sample().depends_on(file), InputError);
 }

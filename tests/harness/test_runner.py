@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ET
 import jsonschema
 import pytest
 
-from tests.harness.program import MISBEHAVING, ROOT, run
+from tests.harness.program import FURROW, MISBEHAVING, ROOT, run
 
 SCHEMA = json.loads((ROOT / "harness/schema/result-1.json").read_text())
 
@@ -117,6 +117,21 @@ def test_resume_keeps_what_is_whole_and_runs_the_rest(tmp_path):
     assert "(1 kept from before)" in ended.stdout
     assert good.stat().st_mtime_ns == before
     assert json.loads(too_long.read_text())["verdict"] == "fail"
+
+
+def test_resume_runs_again_what_a_changed_material_file_describes(tmp_path):
+    blocks = (ROOT / "verification/material-point/cases.toml").read_text().split("[[case]]")
+    assert 'material = "6061-t6"' in blocks[1]
+    block = blocks[1].replace('name = "johnson-cook-slow-{path}"', 'name = "beside-{path}"')
+    (tmp_path / "case.toml").write_text('family = "material-point"\n[[case]]' + block)
+    material = tmp_path / "6061-t6.toml"   # a material beside the case file comes before the project's own
+    material.write_bytes((ROOT / "reference/materials/6061-t6.toml").read_bytes())
+    arguments = ["run", "--case-file", tmp_path / "case.toml", "material-point/beside-tension", "--no-report", "--out", tmp_path / "run"]
+    assert run(FURROW, *arguments).returncode == 0
+    assert "(1 kept from before)" in run(FURROW, *arguments, "--resume").stdout
+    material.write_text(material.read_text() + "# looked at again\n")
+    assert "kept from before" not in run(FURROW, *arguments, "--resume").stdout
+    assert "(1 kept from before)" in run(FURROW, *arguments, "--resume").stdout
 
 
 def test_an_earlier_run_is_not_overwritten_by_accident(tmp_path):
