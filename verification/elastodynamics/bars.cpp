@@ -6,10 +6,24 @@
 namespace furrow::elastodynamic_cases {
 namespace {
 
-/// A strip of a few rows between symmetry planes: nothing moves sideways, so that the wave speed is c_L = sqrt((K + 4G/3)/rho).
-void confine(Body<2>& body, double width) {
-  body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {0.0, 1.0}}, SymmetryPlane<2>{{0.0, width}, {0.0, -1.0}}});
+/// A bar from x = 0 to L that nothing lets move sideways, so that waves run with c_L = sqrt((K + 4G/3)/rho): a few rows between
+/// symmetry planes. `ends` closes it with such planes there as well.
+Simulation<2> confined_bar(const Run& run, const LinearElastic& material, const Scheme& scheme, double L, double velocity, bool ends) {
+  const double dx = run.resolution().spacing;
+  Simulation<2> simulation;
+  simulation.body = elastic_body(run, material, scheme);
+  const int rows = static_cast<int>(std::ceil(1.2 * support(scheme.kernel) * simulation.body.scheme.smoothing_ratio));
+  simulation.body.add(block(cells(L, dx, "length"), rows, dx, {0.0, 0.0}), {velocity, 0.0});
+  std::vector<SymmetryPlane<2>> planes{{{0.0, 0.0}, {0.0, 1.0}}, {{0.0, rows * dx}, {0.0, -1.0}}};
+  if (ends) planes.insert(planes.end(), {{{0.0, 0.0}, {1.0, 0.0}}, {{L, 0.0}, {-1.0, 0.0}}});
+  simulation.body.images = Images<2>(planes);
+  simulation.watch.low = {-L, -L};
+  simulation.watch.high = {3.0 * L, 2.0 * L};
+  return simulation;
 }
+
+/// Width of a bar: that of its rows of particles.
+double width_of(const Body<2>& body) { return body.images.planes()[1].point[1]; }
 
 double longitudinal_speed(const LinearElastic& m) {
   return std::sqrt((m.bulk_modulus + 4.0 / 3.0 * m.shear_modulus) / m.reference_density);
@@ -24,21 +38,13 @@ Problem longitudinal_wave(const Parameters& input) {
   const Scheme scheme = read_scheme(input);
 
   return [=](Run& run) {
-    const double dx = run.resolution().spacing;
-    constexpr int rows = 8;
-    const double width = rows * dx, c = longitudinal_speed(material), k = std::numbers::pi / L;
+    const double c = longitudinal_speed(material), k = std::numbers::pi / L;
 
     // A standing wave between two symmetry planes, v_x = v_0 sin(kx) with one half wave: it returns after 2L/c.
-    Simulation<2> simulation;
-    simulation.body = elastic_body(run, material, scheme);
+    Simulation<2> simulation = confined_bar(run, material, scheme, L, 0.0, true);
     Body<2>& body = simulation.body;
-    body.add(block(cells(L, dx, "length"), rows, dx, {0.0, 0.0}));
-    body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {1.0, 0.0}}, SymmetryPlane<2>{{L, 0.0}, {-1.0, 0.0}},
-                             SymmetryPlane<2>{{0.0, 0.0}, {0.0, 1.0}}, SymmetryPlane<2>{{0.0, width}, {0.0, -1.0}}});
     for (std::size_t i = 0; i < body.particles.size(); ++i)
       body.particles.velocity[i] = {v_0 * std::sin(k * body.particles.position[i][0]), 0.0};
-    simulation.watch.low = {-L, -L};
-    simulation.watch.high = {2.0 * L, 2.0 * L};
 
     // Amplitude of the mode: projection of the velocity on sin(kx) at where particles were at the start.
     std::vector<double> mode(body.particles.size());
@@ -82,23 +88,15 @@ Problem bar_on_wall(const Parameters& input) {
   const Scheme scheme = read_scheme(input);
 
   return [=](Run& run) {
-    const double dx = run.resolution().spacing;
-    constexpr int rows = 8;
     const double c = longitudinal_speed(material), rho = material.reference_density;
 
     // The bar flies to the left and touches the wall at x = 0 from the start.
-    Simulation<2> simulation;
-    simulation.body = elastic_body(run, material, scheme);
-    Body<2>& body = simulation.body;
-    body.add(block(cells(L, dx, "length"), rows, dx, {0.0, 0.0}), {-v_0, 0.0});
-    confine(body, rows * dx);
-    body.walls.push_back({{0.0, 0.0}, {1.0, 0.0}, 4.0 * rho * c * c});
-    simulation.watch.low = {-L, -L};
-    simulation.watch.high = {3.0 * L, 2.0 * L};
+    Simulation<2> simulation = confined_bar(run, material, scheme, L, -v_0, false);
+    simulation.body.walls.push_back({{0.0, 0.0}, {1.0, 0.0}, 4.0 * rho * c * c});
 
     DynamicRun<2> dynamic(run, simulation);
     dynamic.probe({"wall_stress", "sigma", "Pa", "force on the wall over the width of the bar"},
-                  [width = rows * dx](const Simulation<2>& s) { return s.body.wall_forces()[0] / width; });
+                  [width = width_of(simulation.body)](const Simulation<2>& s) { return s.body.wall_forces()[0] / width; });
     dynamic.probe({"mean_velocity", "v", "m/s", "velocity of the bar's centre of mass"}, [](const Simulation<2>& s) {
       double mass = 0.0;
       for (std::size_t i = 0; i < s.body.particles.size(); ++i) mass += s.body.particles.mass[i];

@@ -11,10 +11,14 @@ Family elastodynamics_family() {
                 "forms, before anything may yield.");
   family.add("oscillating_plate", elastodynamic_cases::oscillating_plate);
   family.add("cantilever", elastodynamic_cases::cantilever);
+  family.add("cantilever_ladder", elastodynamic_cases::cantilever_ladder);
   family.add("longitudinal_wave", elastodynamic_cases::longitudinal_wave);
   family.add("bar_on_wall", elastodynamic_cases::bar_on_wall);
   family.add("spinning_square", elastodynamic_cases::spinning_square);
   family.add("order_in_time", elastodynamic_cases::order_in_time);
+  family.add("rubber_rings", elastodynamic_cases::rubber_rings);
+  family.add("simple_shear", elastodynamic_cases::simple_shear);
+  family.add("gravity_column", elastodynamic_cases::gravity_column);
   return family;
 }
 
@@ -24,6 +28,12 @@ LinearElastic read_elastic(const Parameters& input) {
   return LinearElastic::from_young(input.quantity("density", dimension::density, range::positive),
                                    input.quantity("young_modulus", dimension::stress, range::positive),
                                    input.number("poisson_ratio", {-1.0, 0.5, true, true}));
+}
+
+StepControl read_control(const Parameters& input, double courant) {
+  StepControl control;
+  control.courant = input.number_or("courant", courant, range::positive);
+  return control;
 }
 
 std::vector<Vector<2>> block(int columns, int rows, double dx, const Vector<2>& corner) {
@@ -51,6 +61,10 @@ Body<2> elastic_body(const Run& run, const LinearElastic& material, const Scheme
 
 void measure_energy(Run& run, const DynamicRun<2>& dynamic) {
   run.measure("energy_imbalance", dynamic.energy_imbalance());
+  energy_figure(run, dynamic);
+}
+
+void energy_figure(Run& run, const DynamicRun<2>& dynamic) {
   history_figure(run, dynamic, "energies", "Where the energy is",
                  {"kinetic_energy", "elastic_energy", "plastic_work", "wall_energy", "viscous_dissipation", "artificial_stress_work",
                   "damping_dissipation", "external_work"},
