@@ -1,5 +1,6 @@
 // The program behind ./furrow: every family by name, then the command line.
 #include "harness/command_line.hpp"
+#include "validation/families.hpp"
 #include "verification/families.hpp"
 
 int main(int argc, char** argv) {
@@ -8,6 +9,7 @@ int main(int argc, char** argv) {
       furrow::operators_family(),
       furrow::material_point_family(),
       furrow::elastodynamics_family(),
+      furrow::taylor_bar_family(),
   };
   return furrow::command_line(families, argc, argv);
 }

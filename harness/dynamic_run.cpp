@@ -104,7 +104,7 @@ bool DynamicRun<Dim>::resume() {
 }
 
 template <int Dim>
-void DynamicRun<Dim>::until(double end, int rows, int snapshots) {
+void DynamicRun<Dim>::until(double end, int rows, int snapshots, const std::function<bool(const DynamicRun&)>& at_rest) {
   std::filesystem::create_directories(run_.folder());
   std::vector<HistoryColumn> all = standard_columns();
   all.insert(all.end(), columns_.begin(), columns_.end());
@@ -129,8 +129,13 @@ void DynamicRun<Dim>::until(double end, int rows, int snapshots) {
   try {
     while (simulation_.time() < end) {
       simulation_.step(end);
-      if (is_due(next_row_, rows)) append_row();
-      if (is_due(next_snapshot_, snapshots)) write_snapshot();
+      bool ends = false;
+      if (is_due(next_row_, rows)) {
+        append_row();
+        ends = at_rest && at_rest(*this);
+      }
+      if (is_due(next_snapshot_, snapshots) || ends) write_snapshot();
+      if (ends) break;
       if (simulation_.steps() % steps_between_good_states == 0) {
         good = simulation_.body.particles;
         good_time = simulation_.time();

@@ -23,9 +23,9 @@ class DynamicRun {
   /// A column of the history beside those that every run has.
   void probe(HistoryColumn column, Probe value);
 
-  /// Runs to `end` with `rows` rows of history and `snapshots` snapshots after the first. Throws Divergence, with a snapshot of
-  /// the last good state in the run's folder.
-  void until(double end, int rows, int snapshots);
+  /// Runs to `end` with `rows` rows of history and `snapshots` snapshots after the first; or ends after the first row at which
+  /// `at_rest`, which sees the history, says so. Throws Divergence, with a snapshot of the last good state in the run's folder.
+  void until(double end, int rows, int snapshots, const std::function<bool(const DynamicRun&)>& at_rest = {});
 
   const HistoryTable& history() const { return history_->table(); }
   /// Column of the history by name; a std::logic_error when there is none.

@@ -40,9 +40,21 @@ Scheme read_scheme(const Parameters& parameters) {
     const Parameters artificial = in.table("artificial_stress");
     scheme.artificial_stress = ArtificialStress{artificial.number("eps", range::not_negative), artificial.number("n", range::positive)};
   }
+  scheme.frame = in.choice_or("frame", "current", {"current", "reference"}) == "reference" ? Frame::reference : Frame::current;
+  if (is_on(in, "bulk_viscosity")) {
+    const Parameters bulk = in.table("bulk_viscosity");
+    scheme.bulk_viscosity = BulkViscosity{bulk.number("linear", range::not_negative), bulk.number("quadratic", range::not_negative)};
+  }
+  scheme.hourglass_damping = in.number_or("hourglass_damping", 0.0, {0.0, 1.0});
   scheme.hourglass = in.number_or("hourglass", 0.0, {0.0, 10.0});
   scheme.xsph = in.number_or("xsph", 0.0, {0.0, 1.0});
   scheme.energy = in.flag_or("energy", true);
+  const bool reference = scheme.frame == Frame::reference;
+  for (const char* key : {"viscosity", "artificial_stress", "xsph", "shepard_every", "density"})
+    if (reference && in.has(key)) in.fail(key, "has no meaning in the reference frame");
+  for (const char* key : {"bulk_viscosity", "hourglass_damping"})
+    if (!reference && in.has(key)) in.fail(key, "is there in the reference frame only: frame = \"reference\"");
+  if (reference) scheme.viscosity.reset();
   return scheme;
 }
 
@@ -57,6 +69,7 @@ void exercise(Run& run, const Scheme& scheme) {
   if (scheme.artificial_stress) run.exercises("schemes/artificial_stress");
   if (scheme.hourglass > 0.0) run.exercises("schemes/hourglass");
   if (scheme.xsph > 0.0) run.exercises("schemes/xsph");
+  if (scheme.frame == Frame::reference) run.exercises("schemes/reference_frame");
   run.exercises("integrators/step_control");
   run.exercises("simulation");
 }

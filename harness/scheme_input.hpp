@@ -3,6 +3,11 @@
 //   scheme = { kernel = "wendland_c2", correction = "linear", density = "continuity", viscosity = { alpha = 1, beta = 2 },
 //              artificial_stress = { eps = 0.3, n = 4 }, hourglass = 0.1, xsph = 0.5, shepard_every = 20, energy = true }
 //
+//   scheme = { frame = "reference", correction = "linear", bulk_viscosity = { linear = 0.06, quadratic = 1.2 },
+//              hourglass = 0.1, hourglass_damping = 0.1 }
+//
+// frame: current (default, the paper's form: the kernel moves with the particles) | reference (total Lagrangian: the kernel stays
+// with the undeformed body; viscosity, artificial stress, XSPH and density equations of the current frame have no place there).
 // correction: none (the paper's form) | linear | quadratic; density: continuity | shepard | summation. Viscosity, artificial
 // stress, hourglass control and XSPH are off where they are not named; each may be switched off by name as well (viscosity = false).
 #pragma once

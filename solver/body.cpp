@@ -5,6 +5,7 @@
 #include "solver/schemes/density.hpp"
 #include "solver/schemes/hourglass.hpp"
 #include "solver/schemes/kernel_correction.hpp"
+#include "solver/schemes/reference_frame.hpp"
 #include "solver/schemes/velocity_gradient.hpp"
 
 namespace furrow {
@@ -17,7 +18,8 @@ constexpr double skin = 0.08;
 
 template <int Dim>
 Stencil<Dim> Body<Dim>::stencil() const {
-  return {scheme.kernel, smoothing_length(), box, particles.position, &neighbours_, images.empty() ? nullptr : &images};
+  return {scheme.kernel, smoothing_length(), box, in_reference_frame() ? particles.reference_position : particles.position,
+          &neighbours_, images.empty() ? nullptr : &images};
 }
 
 template <int Dim>
@@ -101,12 +103,38 @@ void Body<Dim>::find_neighbours() {
   if (scheme.correction == Correction::linear) linear_.resize(n);
   if (scheme.correction == Correction::quadratic) quadratic_.resize(n);
   ++builds_;
+  if (in_reference_frame()) build_reference();
+}
+
+template <int Dim>
+void Body<Dim>::build_reference() {
+  Particles<Dim>& p = particles;
+  const std::size_t n = p.size();
+  const double rho_0 = std::visit([](const auto& law) { return law.initial_state().density; }, material);
+  images.fill(p.mass);
+  images.fill_positions(p.reference_position);
+  undeformed_.id.assign(n, 0);
+  undeformed_.mass = p.mass;
+  undeformed_.density.assign(p.position.size(), rho_0);
+  undeformed_.stress.assign(n, Tensor::Zero());
+  for (std::size_t i = 0; i < p.position.size(); ++i) volume_[i] = p.mass[i] / rho_0;
+  velocity_gradient_.assign(n, Matrix<Dim>::Zero());
+  gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
+  make_correction();
 }
 
 template <int Dim>
 void Body<Dim>::refresh_neighbours(bool force) {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
+  if (in_reference_frame()) {
+    if (force) {
+      std::copy_n(p.reference_position.begin(), n, p.position_at_build.begin());
+      find_neighbours();
+    }
+    fill_images();
+    return;
+  }
   const double allowed = 0.5 * skin * support(scheme.kernel) * smoothing_length();
   double moved2 = 0.0;
   if (!force) {
@@ -144,6 +172,7 @@ void Body<Dim>::fill_images() {
 
 template <int Dim>
 CorrectionView<Dim> Body<Dim>::correction(double ahead) {
+  if (in_reference_frame()) return view_of_correction();
   const Particles<Dim>& p = particles;
   const auto n = static_cast<std::int64_t>(p.size());
 #pragma omp parallel for schedule(static)
@@ -152,15 +181,23 @@ CorrectionView<Dim> Body<Dim>::correction(double ahead) {
     volume_[i] = p.mass[i] / (p.density[i] + ahead * p.density_rate[i]);
   }
   images.fill(volume_);
+  make_correction();
+  return view_of_correction();
+}
+
+template <int Dim>
+void Body<Dim>::make_correction() {
+  if (scheme.correction == Correction::linear) kernel_correction<Dim>(stencil(), volume_, linear_);
+  if constexpr (Dim == 2)
+    if (scheme.correction == Correction::quadratic) quadratic_correction<Dim>(stencil(), volume_, quadratic_);
+}
+
+template <int Dim>
+CorrectionView<Dim> Body<Dim>::view_of_correction() const {
   switch (scheme.correction) {
-    case Correction::none:
-      return std::monostate{};
-    case Correction::linear:
-      kernel_correction<Dim>(stencil(), volume_, linear_);
-      return std::span<const Matrix<Dim>>(linear_);
-    case Correction::quadratic:
-      if constexpr (Dim == 2) quadratic_correction<Dim>(stencil(), volume_, quadratic_);
-      return std::span<const QuadraticGradient<Dim>>(quadratic_);
+    case Correction::none: return std::monostate{};
+    case Correction::linear: return std::span<const Matrix<Dim>>(linear_);
+    case Correction::quadratic: return std::span<const QuadraticGradient<Dim>>(quadratic_);
   }
   throw std::logic_error("unknown correction");
 }
@@ -175,6 +212,12 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
     furrow::velocity_gradient<Dim>(s, volume_, p.velocity, linear_, velocity_gradient_);
   else if constexpr (Dim == 2)
     quadratic_velocity_gradient<Dim>(s, volume_, p.velocity, quadratic_, velocity_gradient_);
+
+  if (in_reference_frame())
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      gradient_rate_[i] = velocity_gradient_[i];
+      velocity_gradient_[i] *= (p.deformation_gradient[i] + 0.5 * dt * gradient_rate_[i]).inverse();
+    }
 
   const bool shepard = scheme.density == DensityEquation::shepard ||
                        (scheme.shepard_every > 0 && step % scheme.shepard_every == scheme.shepard_every - 1);
@@ -206,8 +249,12 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
           const Tensor L = embed<Dim>(velocity_gradient_[i]);
           const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
           set_state(i, next);
-          const Matrix<Dim> half = 0.5 * dt * velocity_gradient_[i], I = Matrix<Dim>::Identity();
-          p.deformation_gradient[i] = (I - half).inverse() * (I + half) * p.deformation_gradient[i];
+          if (in_reference_frame()) {
+            p.deformation_gradient[i] += dt * gradient_rate_[i];
+          } else {
+            const Matrix<Dim> half = 0.5 * dt * velocity_gradient_[i], I = Matrix<Dim>::Identity();
+            p.deformation_gradient[i] = (I - half).inverse() * (I + half) * p.deformation_gradient[i];
+          }
           p.sound_speed[i] = law.sound_speed(next);
         }
       },
@@ -222,9 +269,13 @@ template <int Dim>
 void Body<Dim>::accelerate(double time, std::span<const Vector<Dim>> velocity) {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
-  const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
-  momentum<Dim>(stencil(), p, velocity, correction(0.0), terms, workspace_, p.acceleration, power_);
-  if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
+  if (in_reference_frame()) {
+    accelerate_in_reference(velocity);
+  } else {
+    const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
+    momentum<Dim>(stencil(), p, velocity, correction(0.0), terms, workspace_, p.acceleration, power_);
+    if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
+  }
 
   wall_forces_.clear();
   for (const RigidWall<Dim>& wall : walls) wall_forces_.push_back(wall.push(p, spacing, p.acceleration));
@@ -255,6 +306,33 @@ void Body<Dim>::accelerate(double time, std::span<const Vector<Dim>> velocity) {
       external_power_ -= p.mass[i] * p.acceleration[i].dot(velocity[i]);
       p.acceleration[i].setZero();
     }
+}
+
+template <int Dim>
+void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  const auto n = static_cast<std::int64_t>(p.size());
+  const auto viscous_pressure = [&](std::size_t i) {
+    return scheme.bulk_viscosity
+               ? bulk_viscosity(*scheme.bulk_viscosity, velocity_gradient_[i].trace(), p.density[i], p.sound_speed[i], spacing)
+               : 0.0;
+  };
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - viscous_pressure(i) * Matrix<Dim>::Identity();
+    undeformed_.stress[i].template topLeftCorner<Dim, Dim>() =
+        first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
+  }
+  momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    power_[i].viscous = -viscous_pressure(i) * velocity_gradient_[i].trace() / p.density[i];
+  if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
+    images.fill_tensors(std::span(p.deformation_gradient));
+    images.fill_tensors(std::span(gradient_rate_));
+    reference_hourglass<Dim>(stencil(), p, volume_, velocity, gradient_rate_, scheme.hourglass, scheme.hourglass_damping,
+                             p.acceleration, power_);
+  }
 }
 
 template <int Dim>

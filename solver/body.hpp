@@ -71,10 +71,17 @@ class Body {
   void fill_images();
   /// Volumes and corrections for where particles are now, their densities `ahead` of what they are (s).
   CorrectionView<Dim> correction(double ahead);
+  void make_correction();
+  CorrectionView<Dim> view_of_correction() const;
+  bool in_reference_frame() const { return scheme.frame == Frame::reference; }
+  void build_reference();
+  void accelerate_in_reference(std::span<const Vector<Dim>> velocity);
 
   NeighbourList neighbours_;
   std::vector<std::int32_t> index_of_id_;
   std::vector<Matrix<Dim>> velocity_gradient_, linear_;
+  std::vector<Matrix<Dim>> gradient_rate_;   ///< in the reference frame: dv/dX, F'
+  Particles<Dim> undeformed_;                ///< in the reference frame: what the momentum sum sees, stress the first Piola-Kirchhoff
   std::vector<QuadraticGradient<Dim>> quadratic_;
   std::vector<double> volume_, density_before_;
   std::vector<MomentumPower> power_;

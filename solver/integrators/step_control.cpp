@@ -1,5 +1,7 @@
 #include "solver/integrators/step_control.hpp"
 
+#include "solver/schemes/reference_frame.hpp"
+
 namespace furrow {
 
 template <int Dim>
@@ -8,18 +10,19 @@ StepLength step_length(const Body<Dim>& body, double compression, const StepCont
   const Particles<Dim>& p = body.particles;
   const double h = body.smoothing_length();
   const auto n = static_cast<std::int64_t>(p.size());
+  const bool reference = body.scheme.frame == Frame::reference;
   double c = 0.0, a2 = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : c, a2)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    c = std::max(c, p.sound_speed[i]);
+    c = std::max(c, reference ? reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]) : p.sound_speed[i]);
     a2 = std::max(a2, p.acceleration[i].squaredNorm());
   }
   StepLength step{control.courant * h / c, StepLimiter::courant};
   const auto limit = [&step](double dt, StepLimiter limiter) {
     if (dt < step.dt) step = {dt, limiter};
   };
-  if (const auto& viscosity = body.scheme.viscosity) {
+  if (const auto& viscosity = body.scheme.viscosity; viscosity && !reference) {
     const double mu = h * compression;
     limit(control.courant * h / (c + 0.6 * (viscosity->alpha * c + viscosity->beta * mu)), StepLimiter::viscous);
   }

@@ -22,7 +22,19 @@ enum class Correction {
   quadratic    ///< moving least squares of second order: exact for quadratic fields; what bending needs
 };
 
+/// Where the kernel lives.
+enum class Frame {
+  current,     ///< it moves with the particles: the paper's form, and the one for what flows or breaks
+  reference    ///< it stays with the undeformed body (reference_frame.hpp): for solids that stay whole
+};
+
+/// Bulk viscosity of von Neumann and Richtmyer, for shocks in the reference frame; lengths are the particle spacing.
+struct BulkViscosity {
+  double linear = 0.06, quadratic = 1.2;
+};
+
 struct Scheme {
+  Frame frame = Frame::current;
   AnyKernel kernel = WendlandC2{};
   double smoothing_ratio = 1.5;                          ///< h/dx
   Correction correction = Correction::linear;
@@ -30,7 +42,9 @@ struct Scheme {
   int shepard_every = 0;                                 ///< steps between re-normalisations of the density by Eq. 7; 0 = never
   std::optional<ArtificialViscosity> viscosity = ArtificialViscosity{};
   std::optional<ArtificialStress> artificial_stress;
+  std::optional<BulkViscosity> bulk_viscosity;           ///< in the reference frame, in place of `viscosity`
   double hourglass = 0.0;                                ///< chi of the hourglass control; 0 = off
+  double hourglass_damping = 0.0;                        ///< zeta, in the reference frame; 0 = off
   double xsph = 0.0;                                     ///< eps of XSPH; 0 = off
   bool energy = true;                                    ///< stress work and viscous heat go into internal energy
 };

@@ -1,0 +1,10 @@
+// The families whose reference is an experiment or the paper, one function each, defined in the family's case.cpp.
+#pragma once
+
+#include "harness/case.hpp"
+
+namespace furrow {
+
+Family taylor_bar_family();   ///< validation/taylor-bar: metal rods against a rigid wall
+
+}  // namespace furrow
