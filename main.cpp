@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
       furrow::material_point_family(),
       furrow::elastodynamics_family(),
       furrow::taylor_bar_family(),
+      furrow::column_collapse_family(),
   };
   return furrow::command_line(families, argc, argv);
 }

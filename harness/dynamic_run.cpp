@@ -31,8 +31,10 @@ std::vector<HistoryColumn> standard_columns() {
           {"elastic_energy", "E_e", "J", "recoverable energy of the stress state"},
           {"plastic_work", "E_p", "J", "stress work that is not recoverable"},
           {"wall_energy", "E_w", "J", "energy in the springs of rigid walls"},
+          {"layer_work", "E_b", "J", "energy taken up by the soil that boundary layers stand for"},
           {"viscous_dissipation", "E_v", "J", "energy dissipated by artificial viscosity"},
           {"artificial_stress_work", "E_a", "J", "energy taken up by artificial stress"},
+          {"friction", "E_f", "J", "energy lost to friction on walls"},
           {"damping_dissipation", "E_d", "J", "energy taken out by damping"},
           {"external_work", "E_x", "J", "work of gravity, applied forces and prescribed motion"},
           {"energy_imbalance", "dE", "1", "sum of all less its initial value, over the largest energy so far"},
@@ -45,8 +47,8 @@ template <int Dim>
 std::vector<double> standard_values(const Simulation<Dim>& s) {
   const EnergyLedger& e = s.energy();
   const Vector<Dim> p = s.momentum();
-  return {s.dt(),    static_cast<double>(s.limiter()), e.kinetic, e.elastic,  e.plastic,           e.wall, e.viscous,
-          e.artificial, e.damping,                     e.external, s.energy_imbalance(), p[0], p[1], s.angular_momentum()};
+  return {s.dt(),    static_cast<double>(s.limiter()), e.kinetic, e.elastic,  e.plastic, e.wall, e.layer, e.viscous,
+          e.artificial, e.contact, e.damping,                     e.external, s.energy_imbalance(), p[0], p[1], s.angular_momentum()};
 }
 
 }  // namespace

@@ -25,9 +25,10 @@ Scheme read_scheme(const Parameters& parameters) {
   Scheme scheme;
   scheme.kernel = *kernel_by_name(in.choice_or("kernel", "wendland_c2", kernel_names()));
   scheme.correction = read_correction(in);
-  const std::string density = in.choice_or("density", "continuity", {"continuity", "shepard", "summation"});
+  const std::string density = in.choice_or("density", "continuity", {"continuity", "shepard", "summation", "constant"});
   scheme.density = density == "continuity" ? DensityEquation::continuity
                    : density == "shepard"  ? DensityEquation::shepard
+                   : density == "constant" ? DensityEquation::constant
                                            : DensityEquation::summation;
   scheme.shepard_every = static_cast<int>(in.integer_or("shepard_every", 0, 0, 1'000'000));
   scheme.viscosity.reset();

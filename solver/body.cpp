@@ -100,6 +100,9 @@ void Body<Dim>::find_neighbours() {
   p.reference_position.resize(extended);
   p.deformation_gradient.resize(extended);
   volume_.resize(extended);
+  in_layer_.assign(n, 0);
+  for (const BoundaryLayer<Dim>& layer : layers)
+    for (const std::int32_t id : layer.ids) in_layer_[index_of(id)] = 1;
   if (scheme.correction == Correction::linear) linear_.resize(n);
   if (scheme.correction == Correction::quadratic) quadratic_.resize(n);
   ++builds_;
@@ -206,12 +209,16 @@ template <int Dim>
 double Body<Dim>::respond(double dt, std::int64_t step) {
   Particles<Dim>& p = particles;
   const Stencil<Dim> s = stencil();
+  lend_velocities(p.velocity, false);
   // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.
   correction(0.5 * dt);
   if (scheme.correction != Correction::quadratic)
     furrow::velocity_gradient<Dim>(s, volume_, p.velocity, linear_, velocity_gradient_);
   else if constexpr (Dim == 2)
     quadratic_velocity_gradient<Dim>(s, volume_, p.velocity, quadratic_, velocity_gradient_);
+  return_velocities(p.velocity);
+  for (const BoundaryLayer<Dim>& layer : layers)   // layers do not strain
+    for (const std::int32_t id : layer.ids) velocity_gradient_[index_of(id)].setZero();
 
   if (in_reference_frame())
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -246,6 +253,7 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
 #pragma omp parallel for schedule(static)
         for (std::int64_t k = 0; k < n; ++k) {
           const auto i = static_cast<std::size_t>(k);
+          if (is_in_layer(i)) continue;
           const Tensor L = embed<Dim>(velocity_gradient_[i]);
           const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
           set_state(i, next);
@@ -262,31 +270,49 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
 
   double compression = 0.0;
   for (const Matrix<Dim>& L : velocity_gradient_) compression = std::max(compression, -L.trace());
+  if (!layers.empty()) {
+    strain_power_ = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      strain_power_ += p.volume(i) * p.stress[i].template topLeftCorner<Dim, Dim>().cwiseProduct(velocity_gradient_[i]).sum();
+  }
   return compression;
 }
 
 template <int Dim>
-void Body<Dim>::accelerate(double time, std::span<const Vector<Dim>> velocity) {
+void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
+  const Vector<Dim> gravity = loads.gravity_at(time);
+  const double damping = loads.damping_at(time);
   if (in_reference_frame()) {
     accelerate_in_reference(velocity);
   } else {
+    lend_velocities(velocity, true);
+    extrapolate_stresses(gravity);
     const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
     momentum<Dim>(stencil(), p, velocity, correction(0.0), terms, workspace_, p.acceleration, power_);
     if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
+    account_layers(velocity);
+    return_velocities(velocity);
   }
 
   wall_forces_.clear();
-  for (const RigidWall<Dim>& wall : walls) wall_forces_.push_back(wall.push(p, spacing, p.acceleration));
+  friction_power_ = 0.0;
+  for (const RigidWall<Dim>& wall : walls) {
+    const auto push = wall.push(p, spacing, velocity, p.acceleration, [this](std::size_t i) { return !is_in_layer(i); });
+    wall_forces_.push_back(push.force);
+    friction_power_ += push.friction_power;
+  }
   external_power_ = damping_power_ = 0.0;
-  const double damping = time < loads.damping_end ? loads.damping : 0.0;
-  if (damping > 0.0 || !loads.gravity.isZero(0.0))
+  if (damping > 0.0 || !gravity.isZero(0.0))
     for (std::size_t i = 0; i < n; ++i) {
-      p.acceleration[i] += loads.gravity - damping * velocity[i];
-      external_power_ += p.mass[i] * loads.gravity.dot(velocity[i]);
+      if (is_in_layer(i)) continue;
+      p.acceleration[i] += gravity - damping * velocity[i];
+      external_power_ += p.mass[i] * gravity.dot(velocity[i]);
       damping_power_ += p.mass[i] * damping * velocity[i].squaredNorm();
     }
+  for (std::size_t l = 0; l < layers.size(); ++l)
+    external_power_ -= layers[l].ids.empty() ? 0.0 : layer_forces_[l].dot(layers[l].velocity(time));
   for (const AppliedForce<Dim>& load : loads.forces) {
     double mass = 0.0;
     for (const std::int32_t id : load.ids) mass += p.mass[index_of(id)];
@@ -336,10 +362,74 @@ void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
 }
 
 template <int Dim>
+LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
+  const std::size_t n = particles.size();
+  soil_volume_.resize(particles.position.size());
+  for (std::size_t i = 0; i < n; ++i) soil_volume_[i] = is_in_layer(i) ? 0.0 : particles.volume(i);
+  if (!images.empty()) images.fill(soil_volume_);
+  return {scheme.kernel, smoothing_length(), box, &neighbours_, particles.position, soil_volume_, index_of_id_};
+}
+
+template <int Dim>
+void Body<Dim>::lend_velocities(std::span<Vector<Dim>> velocity, bool all_smooth) {
+  if (layers.empty()) return;
+  own_velocity_.resize(layers.size());
+  const LayerSurroundings<Dim> around = layer_surroundings();
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    own_velocity_[l].clear();
+    for (const std::int32_t id : layers[l].ids) own_velocity_[l].push_back(velocity[index_of(id)]);
+    if (layers[l].ids.empty()) continue;
+    const Slip slip = all_smooth ? Slip::free : layers[l].slip;
+    extrapolate_velocity<Dim>(around, layers[l], slip, own_velocity_[l].front(), velocity);
+  }
+  if (!images.empty()) images.fill_velocities(velocity);
+}
+
+template <int Dim>
+void Body<Dim>::return_velocities(std::span<Vector<Dim>> velocity) const {
+  for (std::size_t l = 0; l < layers.size(); ++l)
+    for (std::size_t k = 0; k < layers[l].ids.size(); ++k) velocity[index_of(layers[l].ids[k])] = own_velocity_[l][k];
+}
+
+template <int Dim>
+void Body<Dim>::extrapolate_stresses(const Vector<Dim>& gravity) {
+  if (layers.empty()) return;
+  Particles<Dim>& p = particles;
+  plane_stress_.resize(p.position.size());
+  for (std::size_t i = 0; i < p.size(); ++i) plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>();
+  if (!images.empty()) images.fill_tensors(std::span(plane_stress_));
+  const double rho = std::visit([](const auto& law) { return law.initial_state().density; }, material);
+  const LayerSurroundings<Dim> around = layer_surroundings();
+  for (const BoundaryLayer<Dim>& layer : layers) extrapolate_stress<Dim>(around, layer, rho * gravity, plane_stress_, p.stress);
+}
+
+template <int Dim>
+void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  layer_forces_.assign(layers.size(), Vector<Dim>::Zero());
+  layer_power_ = 0.0;
+  for (std::size_t l = 0; l < layers.size(); ++l)
+    for (std::size_t k = 0; k < layers[l].ids.size(); ++k) {
+      const std::size_t i = index_of(layers[l].ids[k]);
+      const Vector<Dim> force = p.mass[i] * p.acceleration[i];
+      layer_forces_[l] += force;
+      layer_power_ += force.dot(velocity[i] - own_velocity_[l][k]);
+      p.acceleration[i].setZero();
+    }
+  if (layers.empty()) return;
+  for (std::size_t i = 0; i < p.size(); ++i) layer_power_ += p.mass[i] * power_[i].stress;
+  layer_power_ -= strain_power_;
+}
+
+template <int Dim>
 void Body<Dim>::prescribe(double time, std::span<Vector<Dim>> velocity) const {
   for (const PrescribedMotion<Dim>& motion : loads.motions) {
     const Vector<Dim> v = motion.velocity(time);
     for (const std::int32_t id : motion.ids) velocity[index_of(id)] = v;
+  }
+  for (const BoundaryLayer<Dim>& layer : layers) {
+    const Vector<Dim> v = layer.velocity(time);
+    for (const std::int32_t id : layer.ids) velocity[index_of(id)] = v;
   }
 }
 

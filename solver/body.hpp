@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/boundaries/boundary_layer.hpp"
 #include "solver/boundaries/constraints.hpp"
 #include "solver/boundaries/wall.hpp"
 #include "solver/materials/materials.hpp"
@@ -26,6 +27,7 @@ class Body {
   Box<Dim> box;
   Loads<Dim> loads;
   std::vector<RigidWall<Dim>> walls;
+  std::vector<BoundaryLayer<Dim>> layers;
   Images<Dim> images;
 
   double smoothing_length() const { return scheme.smoothing_ratio * spacing; }
@@ -45,10 +47,11 @@ class Body {
   /// positions: velocity gradient, density equation, material law. Returns the largest rate of compression -tr L, 1/s.
   double respond(double dt, std::int64_t step);
 
-  /// Accelerations from stress, walls, gravity, damping and applied forces at `time`; `velocity` is that of the same time.
-  void accelerate(double time, std::span<const Vector<Dim>> velocity);
+  /// Accelerations from stress, walls, gravity, damping and applied forces at `time`; `velocity` is that of the same time, and
+  /// comes back as it was.
+  void accelerate(double time, std::span<Vector<Dim>> velocity);
 
-  /// Sets the velocity of prescribed particles.
+  /// Sets the velocity of prescribed particles and of boundary layers.
   void prescribe(double time, std::span<Vector<Dim>> velocity) const;
 
   std::size_t index_of(std::int32_t id) const { return static_cast<std::size_t>(index_of_id_[static_cast<std::size_t>(id)]); }
@@ -61,6 +64,12 @@ class Body {
   double external_power() const { return external_power_; }
   double damping_power() const { return damping_power_; }
   const std::vector<Vector<Dim>>& reactions() const { return reactions_; }
+  /// Force of the body on each boundary layer, N, and the power that goes into the soil that layers stand for: what all pairs take
+  /// out of the motion less what the body's own stress does on its own strain. Both as of the last accelerate().
+  const std::vector<Vector<Dim>>& layer_forces() const { return layer_forces_; }
+  double layer_power() const { return layer_power_; }
+  double friction_power() const { return friction_power_; }   ///< W, taken out of the motion by friction on walls
+  bool is_in_layer(std::size_t i) const { return !in_layer_.empty() && in_layer_[i] != 0; }
   std::int64_t builds() const { return builds_; }
 
   MaterialState state(std::size_t i) const;
@@ -69,6 +78,14 @@ class Body {
  private:
   void find_neighbours();
   void fill_images();
+  LayerSurroundings<Dim> layer_surroundings();
+  /// Gives the particles of layers the velocities that sums over pairs see, and takes them away again. Artificial viscosity sees
+  /// every surface as smooth: what it would hold back along a rough one is not the soil's friction.
+  void lend_velocities(std::span<Vector<Dim>> velocity, bool all_smooth);
+  void return_velocities(std::span<Vector<Dim>> velocity) const;
+  void extrapolate_stresses(const Vector<Dim>& gravity);
+  /// Forces and power of layers after the sum over pairs, whose accelerations they take.
+  void account_layers(std::span<const Vector<Dim>> velocity);
   /// Volumes and corrections for where particles are now, their densities `ahead` of what they are (s).
   CorrectionView<Dim> correction(double ahead);
   void make_correction();
@@ -88,7 +105,13 @@ class Body {
   MomentumWorkspace<Dim> workspace_;
   std::vector<double> wall_forces_;
   std::vector<Vector<Dim>> reactions_;
-  double external_power_ = 0.0, damping_power_ = 0.0;
+  std::vector<std::uint8_t> in_layer_;
+  std::vector<double> soil_volume_;
+  std::vector<Matrix<Dim>> plane_stress_;
+  std::vector<std::vector<Vector<Dim>>> own_velocity_;       ///< of each layer's particles, while another is lent to them
+  std::vector<Vector<Dim>> layer_forces_;
+  double external_power_ = 0.0, damping_power_ = 0.0, layer_power_ = 0.0;
+  double friction_power_ = 0.0, strain_power_ = 0.0;
   std::int64_t builds_ = 0;
 };
 

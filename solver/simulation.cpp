@@ -84,7 +84,7 @@ void Simulation<Dim>::drift(double dt) {
 template <int Dim>
 typename Simulation<Dim>::Powers Simulation<Dim>::powers() const {
   const Particles<Dim>& p = body.particles;
-  Powers sum{0.0, 0.0, body.damping_power(), body.external_power()};
+  Powers sum{0.0, 0.0, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power()};
   for (std::size_t i = 0; i < p.size(); ++i) {
     sum.viscous += p.mass[i] * body.power()[i].viscous;
     sum.artificial += p.mass[i] * body.power()[i].artificial;
@@ -94,6 +94,7 @@ typename Simulation<Dim>::Powers Simulation<Dim>::powers() const {
 
 template <int Dim>
 double Simulation<Dim>::stored(std::size_t i) const {
+  if (body.is_in_layer(i)) return 0.0;
   return body.particles.mass[i] * std::visit([&](const auto& law) { return law.stored_energy(body.state(i)); }, body.material);
 }
 
@@ -106,17 +107,20 @@ void Simulation<Dim>::account(double dt) {
   energy_.artificial += 0.5 * dt * (before.artificial + powers_.artificial);
   energy_.damping += 0.5 * dt * (before.damping + powers_.damping);
   energy_.external += 0.5 * dt * (before.external + powers_.external);
+  energy_.contact += 0.5 * dt * (before.friction + powers_.friction);
+  energy_.layer += 0.5 * dt * (before.layer + powers_.layer);
 
   const bool heats = body.scheme.energy;
   double internal = -initial_internal_;
   energy_.kinetic = energy_.elastic = energy_.wall = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (heats) p.internal_energy[i] += dt * body.power()[i].viscous;
-    energy_.kinetic += 0.5 * p.mass[i] * p.velocity[i].squaredNorm();
+    if (!body.is_in_layer(i)) energy_.kinetic += 0.5 * p.mass[i] * p.velocity[i].squaredNorm();
     energy_.elastic += stored(i);
     internal += p.mass[i] * p.internal_energy[i];
   }
-  for (const RigidWall<Dim>& wall : body.walls) energy_.wall += wall.energy(p, body.spacing);
+  for (const RigidWall<Dim>& wall : body.walls)
+    energy_.wall += wall.energy(p, body.spacing, [this](std::size_t i) { return !body.is_in_layer(i); });
   deposited_ += heats ? dt * powers_.viscous : 0.0;
   energy_.plastic = internal - deposited_ - energy_.elastic;
   energy_scale_ = std::max({energy_scale_, energy_.kinetic + energy_.elastic, std::abs(energy_.external)});
@@ -131,7 +135,8 @@ template <int Dim>
 Vector<Dim> Simulation<Dim>::momentum() const {
   const Particles<Dim>& p = body.particles;
   Vector<Dim> sum = Vector<Dim>::Zero();
-  for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.velocity[i];
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!body.is_in_layer(i)) sum += p.mass[i] * p.velocity[i];
   return sum;
 }
 
@@ -140,7 +145,7 @@ double Simulation<Dim>::angular_momentum() const {
   const Particles<Dim>& p = body.particles;
   double sum = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i)
-    sum += p.mass[i] * (p.position[i][0] * p.velocity[i][1] - p.position[i][1] * p.velocity[i][0]);
+    if (!body.is_in_layer(i)) sum += p.mass[i] * (p.position[i][0] * p.velocity[i][1] - p.position[i][1] * p.velocity[i][0]);
   return sum;
 }
 
@@ -155,7 +160,7 @@ void Simulation<Dim>::check() const {
     if (!p.velocity[i].allFinite()) stop(i, "velocity", "is not finite");
     if (!p.stress[i].allFinite()) stop(i, "stress", "is not finite");
     if (!(p.density[i] > 0.0)) stop(i, "density", fmt::format("is {:.6g} kg/m^3", p.density[i]));
-    if (!((p.position[i].array() >= watch.low.array()) && (p.position[i].array() <= watch.high.array())).all())
+    if (!body.is_in_layer(i) && !((p.position[i].array() >= watch.low.array()) && (p.position[i].array() <= watch.high.array())).all())
       stop(i, "position", "has left the domain");
   }
   // Neither a step nor an energy is a particle's, but one particle stands out.

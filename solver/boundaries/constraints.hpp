@@ -30,10 +30,14 @@ struct AppliedForce {
 template <int Dim>
 struct Loads {
   Vector<Dim> gravity = Vector<Dim>::Zero();          ///< m/s^2
+  std::function<double(double time)> gravity_factor;  ///< times gravity; empty = 1
   double damping = 0.0;                               ///< 1/s: acceleration -damping v, to reach rest; 0 = none
   double damping_end = std::numeric_limits<double>::infinity();   ///< s; from then on there is no damping
   std::vector<PrescribedMotion<Dim>> motions;
   std::vector<AppliedForce<Dim>> forces;
+
+  Vector<Dim> gravity_at(double time) const { return gravity_factor ? Vector<Dim>(gravity_factor(time) * gravity) : gravity; }
+  double damping_at(double time) const { return time < damping_end ? damping : 0.0; }
 };
 
 }  // namespace furrow

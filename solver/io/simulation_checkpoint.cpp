@@ -20,6 +20,7 @@ void for_each_number(Clock& c, Visit&& visit) {
   visit("energy.elastic", c.energy.elastic);
   visit("energy.plastic", c.energy.plastic);
   visit("energy.wall", c.energy.wall);
+  visit("energy.layer", c.energy.layer);
   visit("energy.viscous", c.energy.viscous);
   visit("energy.artificial", c.energy.artificial);
   visit("energy.damping", c.energy.damping);
@@ -29,6 +30,8 @@ void for_each_number(Clock& c, Visit&& visit) {
   visit("power.artificial", c.powers.artificial);
   visit("power.damping", c.powers.damping);
   visit("power.external", c.powers.external);
+  visit("power.layer", c.powers.layer);
+  visit("power.friction", c.powers.friction);
 }
 
 }  // namespace

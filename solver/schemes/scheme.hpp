@@ -12,7 +12,8 @@ namespace furrow {
 enum class DensityEquation {
   continuity,   ///< d rho/dt = -rho tr L
   shepard,      ///< paper Eq. 7 and nothing else: a uniform density never changes
-  summation     ///< paper Eq. 6 with f = rho
+  summation,    ///< paper Eq. 6 with f = rho
+  constant      ///< none: for soil that shears at constant volume, where a gap that opens between grains is no soil
 };
 
 /// What makes gradients consistent. With a correction the momentum sum is the dual of the corrected velocity gradient.

@@ -1,0 +1,51 @@
+// The problems of the family, and the collapse that they share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/case.hpp"
+#include "harness/dynamic_run.hpp"
+#include "harness/scheme_input.hpp"
+#include "harness/soil_box.hpp"
+#include "validation/column-collapse/surface.hpp"
+
+namespace furrow::column_collapse_cases {
+
+Problem rods(const Parameters& input);              ///< rods of Bui and of Nguyen against the independent surface
+Problem granular_column(const Parameters& input);   ///< run-out against the laws of Lube and of Lajeunesse
+Problem cohesive_column(const Parameters& input);   ///< a column of clay that slumps
+
+/// A column at a smooth wall x = 0 on a floor y = 0, whose right face is released.
+struct SoilColumn {
+  Soil soil;
+  RestingRatio resting;
+  double width, height, floor_length;   ///< m
+  Slip floor;
+  double gate_speed;                    ///< m/s, upwards; 0: there is no gate from the start on
+  double gravity, end_time, courant;
+  double rest_speed;                    ///< m/s: what is slower is at rest
+  Scheme scheme;
+};
+SoilColumn read_soil_column(const Parameters& input);
+
+/// What a collapse leaves behind.
+struct Collapsed {
+  Surface surface;                  ///< at the end
+  double rest_time;                 ///< s, from which on less than 1 % of the mass moves faster than the speed of rest
+  double greatest_speed, time_of_greatest_speed;   ///< of any particle
+  double crest_settlement;          ///< m, of the particle that was highest at the wall
+  double front;                     ///< m, farthest particle with at least four neighbours of soil within two spacings
+  double late_motion;               ///< way of the centre of mass over the last tenth of the time, over the initial height
+  double volume_change;             ///< of the sum of m/rho, relative
+  double energy_imbalance;
+};
+
+/// Runs the collapse, with its figures and the modules it puts to work.
+Collapsed collapse(Run& run, const SoilColumn& column, double window);
+
+/// Adds a figure of surfaces.
+void surface_figure(Run& run, const Surface& computed, const std::vector<std::pair<std::string, Surface>>& references);
+
+}  // namespace furrow::column_collapse_cases
