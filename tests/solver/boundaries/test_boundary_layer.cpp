@@ -78,7 +78,7 @@ TEST_CASE("a layer borrows the uniform stress of the soil; of a smooth one the s
     CHECK(body.particles.stress[i](0, 0) == Approx(-500.0));
     CHECK(body.particles.stress[i](0, 1) == Approx(slip == Slip::none ? 70.0 : -70.0));
   }
-  CHECK(checked >= 60);
+  CHECK(checked >= 40);   // two rows under twenty columns: the third has no soil in reach
 }
 
 TEST_CASE("a linear profile of velocity goes on behind a rough surface, and mirrors its normal part behind a smooth one", "[boundary]") {
