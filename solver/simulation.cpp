@@ -165,19 +165,22 @@ void Simulation<Dim>::check() const {
   }
   // Neither a step nor an energy is a particle's, but one particle stands out.
   const auto largest = [&p](const auto& array) {
-    const auto shorter = [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); };
-    return static_cast<std::size_t>(std::max_element(array.begin(), array.begin() + static_cast<std::ptrdiff_t>(p.size()), shorter) -
-                                    array.begin());
+    std::size_t found = 0;
+    for (std::size_t i = 1; i < p.size(); ++i)
+      if (array[i].squaredNorm() > array[found].squaredNorm()) found = i;
+    return found;
   };
   if (limiter_ != StepLimiter::end_of_run && !(dt_ >= watch.smallest_step * first_dt_)) {
     const std::size_t i = largest(p.acceleration);
-    stop(i, "acceleration", fmt::format("is {:.3g} m/s^2, the largest; the step has collapsed to {:.3g} s, {:.1e} of the first, limited by {}",
-                                        p.acceleration[i].norm(), dt_, dt_ / first_dt_, name_of(limiter_)));
+    stop(i, "acceleration",
+         fmt::format("is {:.3g} m/s^2, the largest; the step has collapsed to {:.3g} s, {:.1e} of the first, limited by {}",
+                     p.acceleration[i].norm(), dt_, dt_ / first_dt_, name_of(limiter_)));
   }
   if (!(energy_imbalance() <= watch.largest_imbalance)) {
     const std::size_t i = largest(p.velocity);
-    stop(i, "velocity", fmt::format("is {:.3g} m/s, the largest; energy has grown by {:.3g} J without work, {:.0f} % of the largest so far",
-                                    p.velocity[i].norm(), energy_.total() - initial_energy_, 100.0 * energy_imbalance()));
+    stop(i, "velocity",
+         fmt::format("is {:.3g} m/s, the largest; energy has grown by {:.3g} J without work, {:.0f} % of the largest so far",
+                     p.velocity[i].norm(), energy_.total() - initial_energy_, 100.0 * energy_imbalance()));
   }
 }
 

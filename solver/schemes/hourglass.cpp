@@ -14,7 +14,8 @@ void hourglass_control(const Stencil<Dim>& stencil, const Particles<Dim>& p, std
     Lanes taken{};
     neighbours([&](const Pairs<Dim>& pair) {
       const LaneVector<Dim> X_ij = X_i - gather<Dim>(p.reference_position.data(), pair.j);
-      const LaneVector<Dim> delta = pair.x_ij - broadcast(0.5) * ((F_i + gather<Dim>(p.deformation_gradient.data(), pair.j)) * X_ij);
+      const LaneMatrix<Dim> F = broadcast(0.5) * (F_i + gather<Dim>(p.deformation_gradient.data(), pair.j));
+      const LaneVector<Dim> delta = pair.x_ij - F * X_ij;
       const Lanes rho_j = gather(p.density.data(), pair.j), c_j = gather(p.sound_speed.data(), pair.j);
       const Lanes modulus = 0.5 * (modulus_i + rho_j * c_j * c_j);
       const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
@@ -23,7 +24,7 @@ void hourglass_control(const Stencil<Dim>& stencil, const Particles<Dim>& p, std
       const Lanes along = dot(delta, pair.x_ij) / (pair.r * pair.r);
       const Lanes factor = broadcast(-chi / p.density[i]) * stiffness * along;
       // Neither the padding with the particle itself, nor what came near only later: it was never one piece with the particle.
-      const LaneVector<Dim> f = ((pair.r > 1e-140) & (X2 < reach2) ? factor : Lanes{}) * pair.x_ij;
+      const LaneVector<Dim> f = (((pair.r > 1e-140) & (X2 < reach2)) ? factor : Lanes{}) * pair.x_ij;
       a += f;
       taken += dot(f, v_i - gather<Dim>(velocity.data(), pair.j));
     });

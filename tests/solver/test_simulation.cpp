@@ -119,6 +119,40 @@ TEST_CASE("a wall gives back what a bar brings, and only while they touch", "[si
   CHECK(largest > 0.0);
 }
 
+TEST_CASE("damping takes energy until it ends, and none from then on", "[simulation]") {
+  Simulation<2> simulation = struck_block();
+  simulation.body.loads.damping = 50.0;
+  simulation.body.loads.damping_end = 2e-3;
+  simulation.start();
+  simulation.run_until(2e-3);
+  CHECK(simulation.energy().damping > 0.0);
+  simulation.step(1.0);
+  const double taken = simulation.energy().damping;
+  simulation.run_until(3e-3);
+  CHECK(simulation.energy().damping == taken);
+}
+
+TEST_CASE("hourglass control holds together what began as one piece, and leaves alone what met later", "[simulation]") {
+  Body<2> body = struck_block().body;
+  body.walls.clear();
+  body.images = {};
+  body.scheme.viscosity.reset();
+  const std::size_t n = body.particles.size();
+  std::vector<Vector<2>> apart(body.particles.position);
+  for (Vector<2>& x : apart) x[0] += 1.0;
+  body.add(apart);
+  // The second block is put beside the first one without strain: no stress, no deformation, but new neighbours.
+  for (std::size_t i = n; i < 2 * n; ++i) body.particles.position[i][0] -= 0.88;
+  body.refresh_neighbours(true);
+  const auto first = static_cast<std::size_t>(body.index_of(0));
+  body.accelerate(0.0, body.particles.velocity);
+  for (const Vector<2>& a : body.particles.acceleration) CHECK(a.norm() < 1e-6);
+  // A zigzag within one block is met by a force.
+  body.particles.position[first][0] += 1e-4;
+  body.accelerate(0.0, body.particles.velocity);
+  CHECK(body.particles.acceleration[first][0] < -1.0);
+}
+
 TEST_CASE("a run that goes wrong says when, where and in which field", "[simulation]") {
   SECTION("a particle leaves the domain") {
     Simulation<2> simulation = struck_block();
