@@ -19,7 +19,8 @@ std::chrono::duration<double> checkpoint_interval() {
   char* end = nullptr;
   const double seconds = std::strtod(text, &end);
   if (end == text || *end != '\0' || !(seconds >= 0.0))
-    throw InputError("FURROW_CHECKPOINT_INTERVAL", 0, "", fmt::format("found \"{}\", expected seconds of wall time, 0 or more", text));
+    throw InputError("FURROW_CHECKPOINT_INTERVAL", 0, "",
+                     fmt::format("found \"{}\", expected seconds of wall time, 0 or more", text));
   return std::chrono::duration<double>(seconds);
 }
 constexpr std::int64_t steps_between_good_states = 200;
@@ -98,7 +99,8 @@ bool DynamicRun<Dim>::resume() {
     next_snapshot_ = checkpoint.scalar<std::int32_t>("next_snapshot");
     written = checkpoint.scalar<std::int32_t>("snapshots");
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("cannot go on from {}: {}; remove it, and the case begins anew", file.string(), error.what()));
+    throw std::runtime_error(
+        fmt::format("cannot go on from {}: {}; remove it, and the case begins anew", file.string(), error.what()));
   }
   while (snapshots_ < written) run_.file("snapshots", run_.folder() / fmt::format("snapshot-{:04d}.vtkhdf", snapshots_++));
   run_.note(fmt::format("Went on from a checkpoint at t = {:.6g} s.", simulation_.time()));
@@ -154,7 +156,8 @@ void DynamicRun<Dim>::until(double end, int rows, int snapshots, const std::func
     history_->flush();
     const auto file = run_.folder() / "last-good.vtkhdf";
     furrow::write_snapshot(file, particle_snapshot(good, good_time));
-    throw Divergence(fmt::format("{}; the last good state, t = {:.6g} s, is in {}", error.what(), good_time, file.filename().string()));
+    throw Divergence(
+        fmt::format("{}; the last good state, t = {:.6g} s, is in {}", error.what(), good_time, file.filename().string()));
   }
   history_->flush();
   std::filesystem::remove(run_.folder() / "checkpoint.h5");

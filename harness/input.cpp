@@ -492,7 +492,8 @@ void Parameters::depends_on(const std::filesystem::path& file) const {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in.is_open() || in.bad()) throw InputError(file.string(), 0, "", "cannot be read, expected a file that this user may read");
+  if (!in.is_open() || in.bad())
+    throw InputError(file.string(), 0, "", "cannot be read, expected a file that this user may read");
   node_->files[file.filename().string()] += fingerprint(text.view());
 }
 

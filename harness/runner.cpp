@@ -72,7 +72,10 @@ bool may_be_kept(const Json& result, const CaseSpec& spec, const Json& provenanc
 // What makes two runs of a case the same computation. Written into its folder before it begins, so that a later run knows whether
 // a checkpoint there is its own.
 Json identity(const CaseSpec& spec, const Json& provenance) {
-  return {{"case", spec.id}, {"commit", provenance.at("commit")}, {"program", provenance.at("program")}, {"inputs", spec.fingerprint}};
+  return {{"case", spec.id},
+          {"commit", provenance.at("commit")},
+          {"program", provenance.at("program")},
+          {"inputs", spec.fingerprint}};
 }
 constexpr const char* identity_file = "begun.json";
 

@@ -1,4 +1,4 @@
-"""Runs that move: threads and interruptions change no byte of what they leave behind; what goes wrong is named, and nothing is lost."""
+"""Runs that move: threads and interruptions change no byte of what is left; what goes wrong is named, and nothing is lost."""
 
 import json
 import os
@@ -142,7 +142,7 @@ def test_two_threads_leave_the_same_bytes_as_one(bar, tmp_path, uninterrupted):
 @pytest.mark.parametrize("killed", ["runner", "case"])
 def test_a_run_killed_on_its_way_is_resumed_to_the_same_bytes(bar, tmp_path, uninterrupted, killed):
     folder = tmp_path / "run"
-    interrupted(bar, folder, lambda process: process.kill() if killed == "runner" else os.kill(children_of(process)[0], signal.SIGKILL))
+    interrupted(bar, folder, lambda p: p.kill() if killed == "runner" else os.kill(children_of(p)[0], signal.SIGKILL))
     ended = start(bar, folder, "--resume")
     assert ended.returncode == 0, ended.stdout + ended.stderr
     assert "Went on from a checkpoint" in " ".join(result(folder)["notes"])
@@ -224,7 +224,8 @@ def test_a_full_disk_is_named_and_earlier_results_stay(bar, tmp_path):
     # A disk with room for records and a history but not for all snapshots; the program and what it says stay outside.
     script = (f"mount -t tmpfs -o size=320k none {disk} && {FURROW} run --case-file {bar} --no-report --out {disk}/run; code=$?; "
               f"cp -r {disk}/run {tmp_path}/kept; exit $code")
-    ended = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script], capture_output=True, text=True, timeout=60)
+    ended = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script], capture_output=True, text=True,
+                           timeout=60)
     assert ended.returncode == 3, ended.stdout + ended.stderr
     kept = tmp_path / "kept"
     said = ended.stdout + ended.stderr + (json.dumps(result(kept)) if (kept / CASE / "result.json").exists() else "")

@@ -126,7 +126,8 @@ def test_resume_runs_again_what_a_changed_material_file_describes(tmp_path):
     (tmp_path / "case.toml").write_text('family = "material-point"\n[[case]]' + block)
     material = tmp_path / "6061-t6.toml"   # a material beside the case file comes before the project's own
     material.write_bytes((ROOT / "reference/materials/6061-t6.toml").read_bytes())
-    arguments = ["run", "--case-file", tmp_path / "case.toml", "material-point/beside-tension", "--no-report", "--out", tmp_path / "run"]
+    arguments = ["run", "--case-file", tmp_path / "case.toml", "material-point/beside-tension", "--no-report", "--out",
+                 tmp_path / "run"]
     assert run(FURROW, *arguments).returncode == 0
     assert "(1 kept from before)" in run(FURROW, *arguments, "--resume").stdout
     material.write_text(material.read_text() + "# looked at again\n")

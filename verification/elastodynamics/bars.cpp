@@ -8,7 +8,8 @@ namespace {
 
 /// A bar from x = 0 to L that nothing lets move sideways, so that waves run with c_L = sqrt((K + 4G/3)/rho): a few rows between
 /// symmetry planes. `ends` closes it with such planes there as well.
-Simulation<2> confined_bar(const Run& run, const LinearElastic& material, const Scheme& scheme, double L, double velocity, bool ends) {
+Simulation<2> confined_bar(const Run& run, const LinearElastic& material, const Scheme& scheme, double L, double velocity,
+                           bool ends) {
   const double dx = run.resolution().spacing;
   Simulation<2> simulation;
   simulation.body = elastic_body(run, material, scheme);

@@ -47,9 +47,10 @@ Problem gravity_column(const Parameters& input) {
     const auto inside = [](const Particles<2>& p, std::size_t i) { return p.reference_position[i][1] > 0.0; };
     DynamicRun<2> dynamic(run, simulation);
     dynamic.probe({"height_of_centre", "y_c", "m", "height of the centre of mass"}, [inside](const Simulation<2>& s) {
+      const Particles<2>& p = s.body.particles;
       double sum = 0.0, mass = 0.0;
-      for (std::size_t i = 0; i < s.body.particles.size(); ++i)
-        if (inside(s.body.particles, i)) sum += s.body.particles.mass[i] * s.body.particles.position[i][1], mass += s.body.particles.mass[i];
+      for (std::size_t i = 0; i < p.size(); ++i)
+        if (inside(p, i)) sum += p.mass[i] * p.position[i][1], mass += p.mass[i];
       return sum / mass;
     });
     dynamic.probe({"base_force", "F", "N", "force on what the column stands on, per metre of width of the plane"},
@@ -79,7 +80,8 @@ Problem gravity_column(const Parameters& input) {
       const double Y = p.reference_position[i][1], weight = rho * g * (H - Y);
       mass += p.mass[i];
       if (!inside(p, i)) continue;
-      const double e = (p.stress[i](1, 1) + weight) / (rho * g * H), e_side = (p.stress[i](0, 0) + ratio * weight) / (ratio * rho * g * H);
+      const double e = (p.stress[i](1, 1) + weight) / (rho * g * H);
+      const double e_side = (p.stress[i](0, 0) + ratio * weight) / (ratio * rho * g * H);
       square += e * e;
       square_side += e_side * e_side;
       largest = std::max(largest, std::abs(e));

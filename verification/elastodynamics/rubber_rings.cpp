@@ -93,7 +93,7 @@ Problem rubber_rings(const Parameters& input) {
                     return widest / dx;
                   });
     // Further apart than the support of the kernel, two particles do not hold each other any more.
-    dynamic.probe({"broken_pairs", "n", "1", "fraction of the pairs that began as nearest neighbours and are out of each other's reach"},
+    dynamic.probe({"broken_pairs", "n", "1", "fraction of pairs that began as nearest neighbours and are out of reach"},
                   [pairs, reach = support(scheme.kernel) * body.smoothing_length(), place](const Simulation<2>& s) {
                     double broken = 0.0;
                     for (const auto& [i, j] : pairs)
@@ -101,7 +101,7 @@ Problem rubber_rings(const Parameters& input) {
                         if ((place(s, i, in_right_ring) - place(s, j, in_right_ring)).norm() > reach) broken += 1.0;
                     return 0.5 * broken / static_cast<double>(pairs.size());
                   });
-    dynamic.probe({"asymmetry", "d/dx", "1", "largest distance of a particle from the mirror image of its counterpart, in spacings"},
+    dynamic.probe({"asymmetry", "d/dx", "1", "largest distance of a particle from its counterpart's mirror image, in spacings"},
                   [n, dx, place](const Simulation<2>& s) {
                     double largest = 0.0;
                     for (std::int32_t i = 0; i < static_cast<std::int32_t>(n); ++i) {

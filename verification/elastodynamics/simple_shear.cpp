@@ -53,7 +53,7 @@ Problem simple_shear(const Parameters& input) {
     };
     dynamic.probe({"shear_stress", "sigma_12", "Pa", "mean of all particles"}, mean(0, 1));
     dynamic.probe({"normal_stress", "sigma_11", "Pa", "mean of all particles"}, mean(0, 0));
-    dynamic.probe({"stress_error", "d sigma/G", "1", "largest difference of a component of any particle's stress from the exact one"},
+    dynamic.probe({"stress_error", "d sigma/G", "1", "largest error of a component of any particle's stress"},
                   [exact, G](const Simulation<2>& s) {
                     double largest = 0.0;
                     const Tensor truth = exact(s.time());
@@ -80,7 +80,9 @@ Problem simple_shear(const Parameters& input) {
     figure.title = "Stress over shear";
     figure.x = {"gamma", "1"};
     figure.y = {"sigma/G", "1"};
-    for (const auto& [column, label, row, of] : {std::tuple{"shear_stress", "sigma_12", 0, 1}, std::tuple{"normal_stress", "sigma_11", 0, 0}}) {
+    using Component = std::tuple<const char*, const char*, int, int>;
+    for (const auto& [column, label, row, of] :
+         {Component{"shear_stress", "sigma_12", 0, 1}, Component{"normal_stress", "sigma_11", 0, 0}}) {
       Series computed{.label = label}, reference{.label = fmt::format("{}, exact", label), .role = "reference"};
       for (std::size_t k = 0; k < dynamic.history().rows(); ++k) {
         const double t = dynamic.column("time")[k];
