@@ -118,11 +118,11 @@ def children_of(process):
         return [int(child) for child in listed.read().split()]
 
 
-def interrupted(bar, folder, how):
+def interrupted(bar, folder, how, rung="."):
     """A run that is stopped after its first checkpoint and well before its end; `how` gets the runner's process."""
     process = subprocess.Popen([FURROW, "run", "--case-file", bar, "--no-report", "--out", folder], stdout=subprocess.DEVNULL,
                                env=os.environ | {"FURROW_CHECKPOINT_INTERVAL": "0.02"})
-    checkpoint = folder / CASE / "checkpoint.h5"
+    checkpoint = folder / CASE / rung / "checkpoint.h5"
     deadline = time.monotonic() + 60
     while not checkpoint.exists() and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.002)
@@ -149,6 +149,16 @@ def test_a_run_killed_on_its_way_is_resumed_to_the_same_bytes(bar, tmp_path, uni
     assert computed(folder) == computed(uninterrupted)
     assert result(folder)["metrics"] == result(uninterrupted)["metrics"]
     assert not (folder / CASE / "checkpoint.h5").exists()
+
+
+def test_a_ladder_killed_on_its_second_rung_is_resumed_to_the_same_bytes(bar, tmp_path):
+    bar.write_text(BAR.replace("value = [2.5]", "value = [5, 2.5]"))
+    assert start(bar, tmp_path / "whole").returncode == 0
+    interrupted(bar, tmp_path / "run", lambda process: process.kill(), "dx-2.5mm-h-1.3")
+    assert start(bar, tmp_path / "run", "--resume").returncode == 0
+    assert "Went on from a checkpoint" in " ".join(result(tmp_path / "run")["notes"])
+    assert computed(tmp_path / "run") == computed(tmp_path / "whole")
+    assert result(tmp_path / "run")["metrics"] == result(tmp_path / "whole")["metrics"]
 
 
 def test_a_checkpoint_of_other_inputs_is_not_gone_on_from(bar, tmp_path):
