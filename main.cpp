@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
       furrow::operators_family(),
       furrow::material_point_family(),
       furrow::elastodynamics_family(),
+      furrow::elastic_plastic_family(),
       furrow::taylor_bar_family(),
       furrow::column_collapse_family(),
   };

@@ -9,5 +9,6 @@ Family kernel_family();      ///< verification/kernel: smoothing kernels, contin
 Family operators_family();   ///< verification/operators: SPH sums on given particles, nothing moves
 Family material_point_family();   ///< verification/material-point: one point of material along a prescribed path
 Family elastodynamics_family();   ///< verification/elastodynamics: elastic bodies that move
+Family elastic_plastic_family();   ///< verification/elastic-plastic: bodies that yield, closed forms
 
 }  // namespace furrow

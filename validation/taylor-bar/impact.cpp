@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -76,12 +77,20 @@ Outcome collide(Run& run, const Impact& impact) {
   outcome.rest_time = time.back();
   outcome.time = time;
   outcome.foot_radius_at = dynamic.column("foot_radius");
+  outcome.length_at = dynamic.column("length");
   outcome.length = mean_since(time, dynamic.column("length"), last_transit(dynamic));
   outcome.foot_radius = mean_since(time, dynamic.column("foot_radius"), last_transit(dynamic));
   outcome.greatest_plastic_strain = *std::max_element(p.plastic_strain.begin(), p.plastic_strain.end());
   outcome.highest_temperature = *std::max_element(p.temperature.begin(), p.temperature.end());
   outcome.energy_imbalance = dynamic.energy_imbalance();
   outcome.viscous_share = dynamic.column("viscous_dissipation").back() / kinetic;
+  double volume = 0.0, strained = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    volume += p.volume(i);
+    if (p.plastic_strain[i] > 1.0) strained += p.volume(i);
+    if (p.damage[i] >= 1.0) outcome.failed_share += 1.0 / static_cast<double>(p.size());
+  }
+  outcome.strained_share = strained / volume;
   return outcome;
 }
 

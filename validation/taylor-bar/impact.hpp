@@ -24,9 +24,11 @@ struct Impact {
 struct Outcome {
   RodShape shape;                                       ///< at rest
   double length = 0.0, foot_radius = 0.0;            ///< means over the last transit
-  std::vector<double> time, foot_radius_at;          ///< history
+  std::vector<double> time, foot_radius_at, length_at;   ///< history
   double rest_time = 0.0;                            ///< s
   double greatest_plastic_strain = 0.0, highest_temperature = 0.0, energy_imbalance = 0.0, viscous_share = 0.0;
+  double strained_share = 0.0;                       ///< volume strained by more than 1
+  double failed_share = 0.0;                         ///< particles that have lost their strength
 };
 
 /// Runs until the rod is at rest: over the last transit, 3 L/c_L, plastic work has grown by less than `rest_growth` of the kinetic
