@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import jinja2
 
-from reports import numbers, results, summary, view
+from reports import numbers, results, summary, validation, view
 from reports.figures import history, ladder, lines, particles, snapshot
 
 HERE = Path(__file__).resolve().parent
@@ -187,7 +187,11 @@ def draw_all(figures, root, jobs):
 def _write(run, work, jobs):
     _assign_pages(run.cases)
     drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance) for case in run.cases}
-    draw_all([f for c, s, p, o in drawn.values() for f in (*c.values(), *s, *p, *o)], work, jobs)
+    compared = validation.groups(run)
+    scatter = [Figure(f"figures/validation/{slug(data['name'])}.svg", data["title"], data["caption"],
+                      f"{data['y']['label']} over {data['x']['label']}.", lines.draw, (data, stamp(run.provenance)))
+               for data in validation.figures(compared)]
+    draw_all([*scatter, *(f for c, s, p, o in drawn.values() for f in (*c.values(), *s, *p, *o))], work, jobs)
     shutil.copytree(HERE / "assets", work / "assets")
 
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
@@ -200,8 +204,11 @@ def _write(run, work, jobs):
         duration=numbers.duration, ladders_of=ladder.ladders_of, band_words=view.band_words, error_words=view.error_words,
         bar=view.bar, flatten=view.flatten, expiry=view.expiry, when=view.when, spacing_words=view.spacing_words,
         common_rung=view.common_rung, is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
-    common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run)}
+    common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run), "compared": compared}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
+    if compared:
+        (work / "validation.html").write_text(environment.get_template("validation.html").render(
+            root="", groups=compared, figures=scatter, signed=view.signed, share=view.share, **common), encoding="utf-8")
     page = environment.get_template("case.html")
     for i, case in enumerate(run.cases):
         convergence, series, pictures, own = drawn[case.page]

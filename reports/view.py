@@ -32,6 +32,16 @@ def band_words(metric):
     return numbers.band(metric["band"], _band_unit(metric))
 
 
+def signed(part):
+    """A relative deviation in percent with its sign; a dash where there is none."""
+    return "–" if part is None else f"{'+' if part > 0.0 else ''}{numbers.number(100.0 * part, 2)}\u202f%"
+
+
+def share(part):
+    """A relative uncertainty in percent; a dash where there is none."""
+    return "–" if part is None else f"{numbers.number(100.0 * part, 2)}\u202f%"
+
+
 def bar(margin, verdict):
     """Small graphic: the band as a track between its ends, a mark where the number lies, outside it where it is outside."""
     if margin is None or margin.band == (None, None):
