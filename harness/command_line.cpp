@@ -153,7 +153,7 @@ class CommandLine {
     sub->add_option("--jobs", jobs_, "Cases side by side (default: as many as cores)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
-    sub->add_flag("--resume", options_.resume, "Keep results of the same commit and inputs that are there already");
+    sub->add_flag("--resume", options_.resume, "Keep results of the same commit and inputs, and go on from checkpoints");
     sub->add_flag("--replace", options_.replace, "Replace an earlier run in the folder");
     sub->add_flag("--quiet", options_.quiet, "Print nothing but errors");
     sub->add_flag("--no-report", [this](std::int64_t) { options_.report = false; }, "Leave the report out");

@@ -12,17 +12,6 @@
 namespace furrow {
 namespace {
 
-/// Wall time between checkpoints: 30 s, or as many seconds as FURROW_CHECKPOINT_INTERVAL says.
-std::chrono::duration<double> checkpoint_interval() {
-  const char* text = std::getenv("FURROW_CHECKPOINT_INTERVAL");
-  if (text == nullptr) return std::chrono::seconds(30);
-  char* end = nullptr;
-  const double seconds = std::strtod(text, &end);
-  if (end == text || *end != '\0' || !(seconds >= 0.0))
-    throw InputError("FURROW_CHECKPOINT_INTERVAL", 0, "",
-                     fmt::format("found \"{}\", expected seconds of wall time, 0 or more", text));
-  return std::chrono::duration<double>(seconds);
-}
 constexpr std::int64_t steps_between_good_states = 200;
 
 std::vector<HistoryColumn> standard_columns() {
@@ -53,6 +42,17 @@ std::vector<double> standard_values(const Simulation<Dim>& s) {
 }
 
 }  // namespace
+
+std::chrono::duration<double> checkpoint_interval() {
+  const char* text = std::getenv("FURROW_CHECKPOINT_INTERVAL");
+  if (text == nullptr) return std::chrono::seconds(30);
+  char* end = nullptr;
+  const double seconds = std::strtod(text, &end);
+  if (end == text || *end != '\0' || !(seconds >= 0.0))
+    throw InputError("FURROW_CHECKPOINT_INTERVAL", 0, "",
+                     fmt::format("found \"{}\", expected seconds of wall time, 0 or more", text));
+  return std::chrono::duration<double>(seconds);
+}
 
 template <int Dim>
 void DynamicRun<Dim>::probe(HistoryColumn column, Probe value) {

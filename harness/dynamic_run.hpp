@@ -12,6 +12,10 @@
 
 namespace furrow {
 
+/// Wall time between checkpoints: 30 s, or as many seconds as the environment variable FURROW_CHECKPOINT_INTERVAL says; an
+/// InputError when that is no number of seconds.
+std::chrono::duration<double> checkpoint_interval();
+
 template <int Dim>
 class DynamicRun {
  public:

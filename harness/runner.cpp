@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "harness/case_run.hpp"
+#include "harness/dynamic_run.hpp"
 #include "harness/process.hpp"
 #include "harness/progress.hpp"
 #include "harness/result.hpp"
@@ -110,6 +111,7 @@ class Runner {
 
   int run() {
     catch_interrupts();
+    checkpoint_interval();   // throws, before anything runs, when it is not one
     const auto start = std::chrono::steady_clock::now();
     std::map<std::string, std::optional<double>> expected;
     for (const CaseSpec& spec : cases_) expected[spec.id] = expected_seconds(spec);

@@ -66,8 +66,8 @@ void measure_energy(Run& run, const DynamicRun<2>& dynamic) {
 
 void energy_figure(Run& run, const DynamicRun<2>& dynamic) {
   history_figure(run, dynamic, "energies", "Where the energy is",
-                 {"kinetic_energy", "elastic_energy", "plastic_work", "wall_energy", "viscous_dissipation", "artificial_stress_work",
-                  "damping_dissipation", "external_work"},
+                 {"kinetic_energy", "elastic_energy", "plastic_work", "wall_energy", "layer_work", "viscous_dissipation",
+                  "artificial_stress_work", "friction", "damping_dissipation", "external_work"},
                  {"energy per width", "J/m"});
 }
 

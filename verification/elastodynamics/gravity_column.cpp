@@ -1,4 +1,5 @@
 // A column under its own weight: brought to rest by damping, which is then off. Does it stay at rest, with the stress of statics?
+#include "harness/soil_box.hpp"
 #include "verification/elastodynamics/problems.hpp"
 
 namespace furrow::elastodynamic_cases {
@@ -7,7 +8,7 @@ Problem gravity_column(const Parameters& input) {
   const LinearElastic material = read_elastic(input);
   const double H = input.quantity("height", dimension::length, range::positive);
   const double g = input.quantity("gravity", dimension::acceleration, range::positive);
-  const std::string base = input.choice("base", {"wall", "layer", "symmetry"});
+  const std::string base = input.choice("base", {"wall", "held_layer", "boundary_layer", "symmetry"});
   const StepControl control = read_control(input);
   const Scheme scheme = read_scheme(input);
 
@@ -16,10 +17,10 @@ Problem gravity_column(const Parameters& input) {
     const double M = material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus, c = std::sqrt(M / rho);
     constexpr int columns = 8;
     const int rows = cells(H, dx, "height");
-    const int held = base == "layer" ? static_cast<int>(std::ceil(support(scheme.kernel) * run.resolution().smoothing_ratio)) : 0;
+    const int held = base == "held_layer" ? static_cast<int>(std::ceil(support(scheme.kernel) * run.resolution().smoothing_ratio)) : 0;
 
     // Geometry: a strip between symmetry planes, so that it strains along y alone; what it stands on is a rigid wall, held
-    // particles, or a symmetry plane.
+    // particles, a layer that borrows its stress, or a symmetry plane.
     Simulation<2> simulation;
     simulation.body = elastic_body(run, material, scheme);
     simulation.control = control;
@@ -29,7 +30,8 @@ Problem gravity_column(const Parameters& input) {
     if (base == "symmetry") planes.push_back({{0.0, 0.0}, {0.0, 1.0}});
     body.images = Images<2>(planes);
     if (base == "wall") body.walls.push_back({{0.0, 0.0}, {0.0, 1.0}, 4.0 * M});
-    if (base == "layer") {
+    if (base == "boundary_layer") add_flat_layer(body, "base", {0.0, 0.0}, {columns * dx, 0.0}, Slip::free);
+    if (base == "held_layer") {
       PrescribedMotion<2> rest{"base", {}, [](double) { return Vector<2>(Vector<2>::Zero()); }};
       for (int i = 0; i < columns; ++i)
         for (int j = 0; j < held; ++j) rest.ids.push_back(i * (held + rows) + j);
@@ -56,7 +58,8 @@ Problem gravity_column(const Parameters& input) {
     dynamic.probe({"base_force", "F", "N", "force on what the column stands on, per metre of width of the plane"},
                   [base](const Simulation<2>& s) {
                     if (base == "wall") return s.body.wall_forces()[0];
-                    if (base == "layer") return -s.body.reactions()[0][1];
+                    if (base == "held_layer") return -s.body.reactions()[0][1];
+                    if (base == "boundary_layer") return -s.body.layer_forces()[0][1];
                     return 0.0;
                   });
     dynamic.probe({"largest_velocity", "v", "m/s", "largest velocity of a particle"}, [](const Simulation<2>& s) {
@@ -67,7 +70,9 @@ Problem gravity_column(const Parameters& input) {
     dynamic.until(end, 600, 2);
     exercise(run, scheme);
     run.exercises("particles/images");
-    run.exercises(base == "wall" ? "boundaries/wall" : base == "layer" ? "boundaries/prescribed_motion" : "particles/images");
+    if (base == "wall") run.exercises("boundaries/wall");
+    if (base == "held_layer") run.exercises("boundaries/prescribed_motion");
+    if (base == "boundary_layer") run.exercises("boundaries/boundary_layer");
 
     // Statics at where each particle has come from: sigma_yy = -rho g (H - Y), sigma_xx = nu/(1 - nu) sigma_yy.
     const Particles<2>& p = body.particles;
@@ -78,7 +83,7 @@ Problem gravity_column(const Parameters& input) {
     Series computed{.label = "vertical"}, side{.label = "horizontal"}, exact{.label = "rho g (H - Y)", .role = "reference"};
     for (std::size_t i = 0; i < p.size(); ++i) {
       const double Y = p.reference_position[i][1], weight = rho * g * (H - Y);
-      mass += p.mass[i];
+      mass += body.is_in_layer(i) ? 0.0 : p.mass[i];   // what is held hangs on those who hold it
       if (!inside(p, i)) continue;
       const double e = (p.stress[i](1, 1) + weight) / (rho * g * H);
       const double e_side = (p.stress[i](0, 0) + ratio * weight) / (ratio * rho * g * H);
