@@ -220,11 +220,15 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   for (const BoundaryLayer<Dim>& layer : layers)   // layers do not strain
     for (const std::int32_t id : layer.ids) velocity_gradient_[index_of(id)].setZero();
 
-  if (in_reference_frame())
-    for (std::size_t i = 0; i < p.size(); ++i) {
+  if (in_reference_frame()) {
+    const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
       gradient_rate_[i] = velocity_gradient_[i];
       velocity_gradient_[i] *= (p.deformation_gradient[i] + 0.5 * dt * gradient_rate_[i]).inverse();
     }
+  }
 
   const bool shepard = scheme.density == DensityEquation::shepard ||
                        (scheme.shepard_every > 0 && step % scheme.shepard_every == scheme.shepard_every - 1);
@@ -351,8 +355,11 @@ void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
         first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
   }
   momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
-  for (std::size_t i = 0; i < p.size(); ++i)
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
     power_[i].viscous = -viscous_pressure(i) * velocity_gradient_[i].trace() / p.density[i];
+  }
   if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
     images.fill_tensors(std::span(p.deformation_gradient));
     images.fill_tensors(std::span(gradient_rate_));

@@ -45,6 +45,17 @@ ProfileError profile_error(const Shot& shot, const RodShape& shape) {
   return {std::sqrt(sum / count), largest};
 }
 
+/// Volume that a digitised profile encloses, over that of the rod before impact: 1 for a metal, but for what digitising loses.
+double enclosed_volume(const Shot& shot) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < shot.height.size(); ++k) {
+    const double a = shot.radius[k - 1], b = shot.radius[k];
+    sum += (shot.height[k] - shot.height[k - 1]) * (a * a + a * b + b * b) / 3.0;
+  }
+  const double first = 0.5 * shot.impact.rod.diameter;
+  return sum / (first * first * shot.impact.rod.length);
+}
+
 void profile_figure(Run& run, const Shot& shot, const RodShape& shape) {
   Figure figure;
   figure.name = "profile";
@@ -107,6 +118,11 @@ Problem shot(const Parameters& input) {
       const ProfileError e = profile_error(shot, outcome.shape);
       run.measure("profile_l2", e.l2);
       run.measure("profile_linf", e.linf);
+      const double enclosed = enclosed_volume(shot);
+      if (std::abs(enclosed - 1.0) > 0.05)
+        run.note(fmt::format("The digitised profile encloses {:.0f} % of the volume that the rod had: a metal keeps its volume, so "
+                             "diameters of this rod are not to be trusted by more than half of what is missing.",
+                             100.0 * enclosed));
     }
     run.measure("greatest_plastic_strain", outcome.greatest_plastic_strain);
     run.measure("highest_temperature", outcome.highest_temperature, "K");
