@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "harness/provenance.hpp"
 #include "harness/scheme_input.hpp"
 
 namespace furrow::taylor_bar_cases {
@@ -28,7 +29,10 @@ void with_johnson_cook(Material& material, F&& f) {
 
 ReferenceData read_set(const Parameters& input, const std::string& name) {
   const std::filesystem::path beside = std::filesystem::path(input.file()).parent_path();
-  return std::filesystem::exists(beside / name / "data.csv") ? read_reference_data(name, beside) : read_reference_data(name);
+  const std::filesystem::path home =
+      std::filesystem::exists(beside / name / "data.csv") ? beside : project_root() / "reference/data";
+  for (const char* file : {"data.csv", "source.toml"}) input.depends_on(home / name / file);
+  return read_reference_data(name, home);
 }
 
 Impact read_impact(const Parameters& input) {
