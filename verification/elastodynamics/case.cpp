@@ -30,6 +30,13 @@ LinearElastic read_elastic(const Parameters& input) {
                                    input.number("poisson_ratio", {-1.0, 0.5, true, true}));
 }
 
+Scheme read_scheme_without_correction(const Parameters& input, std::string_view chosen_by) {
+  const Parameters scheme = input.table_or_empty("scheme");
+  if (scheme.has("correction"))
+    scheme.fail("correction", fmt::format("found a correction here, expected none, for parameters.{} chooses it", chosen_by));
+  return read_scheme(input);
+}
+
 StepControl read_control(const Parameters& input, double courant) {
   StepControl control;
   control.courant = input.number_or("courant", courant, range::positive);

@@ -57,7 +57,7 @@ Problem order_in_time(const Parameters& input) {
   const double v_0 = input.quantity("velocity_amplitude", dimension::velocity, range::positive);
   const long coarsest = input.integer("coarsest_steps", 4, 100000);
   const int rungs = static_cast<int>(input.integer("rungs", 3, 8));
-  Scheme scheme = read_scheme(input);
+  Scheme scheme = read_scheme_without_correction(input, "correction");
   scheme.correction = read_correction(input);
 
   return [=](Run& run) {

@@ -38,6 +38,9 @@ void measure_energy(Run& run, const DynamicRun<2>& dynamic);
 /// Where the energy is over time.
 void energy_figure(Run& run, const DynamicRun<2>& dynamic);
 
+/// The scheme of a case whose correction another key chooses; an InputError where the scheme names one as well.
+Scheme read_scheme_without_correction(const Parameters& input, std::string_view chosen_by);
+
 /// How long steps are: `courant`, by default as in StepControl or as given.
 StepControl read_control(const Parameters& input, double courant = StepControl{}.courant);
 

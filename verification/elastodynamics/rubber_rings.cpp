@@ -40,7 +40,7 @@ Problem rubber_rings(const Parameters& input) {
   const StepControl control = read_control(input);
   // The paper's sums with artificial stress, or without it, or sums with corrected gradients.
   const std::string form = input.choice("form", {"paper", "paper_without_artificial_stress", "corrected"});
-  Scheme scheme = read_scheme(input);
+  Scheme scheme = read_scheme_without_correction(input, "form");
   scheme.correction = form == "corrected" ? Correction::linear : Correction::none;
   if (form == "paper_without_artificial_stress") scheme.artificial_stress.reset();
 

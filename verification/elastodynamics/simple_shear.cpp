@@ -12,7 +12,7 @@ Problem simple_shear(const Parameters& input) {
   const double rate = input.quantity("shear_rate", dimension::rate, range::positive);
   const double gamma_end = input.number("shear", range::positive);
   const StepControl control = read_control(input);
-  Scheme scheme = read_scheme(input);
+  Scheme scheme = read_scheme_without_correction(input, "correction");
   scheme.correction = read_correction(input);
 
   return [=](Run& run) {
