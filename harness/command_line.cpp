@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "harness/bench.hpp"
 #include "harness/runner.hpp"
 #include "harness/result.hpp"
 
@@ -122,6 +123,7 @@ class CommandLine {
     add_run();
     add_matrix();
     add_report();
+    add_bench();
     add_run_case();
   }
 
@@ -205,6 +207,23 @@ class CommandLine {
     sub->callback([this] { action_ = [this] { return report(); }; });
   }
 
+  void add_bench() {
+    CLI::App* sub = command("bench", "Measure the speed of the solver", "./furrow bench --filter whole_step/3d --most 100000");
+    sub->add_flag("--json", bench_.json, "JSON on standard output instead of a table");
+    sub->add_option("--out", bench_.file, "JSON into this file as well")->type_name("FILE");
+    sub->add_option("--filter", bench_.filter, "Only benchmarks whose name matches this regular expression")->type_name("REGEX");
+    sub->add_option("--most", bench_.most_particles, "Particles of the largest benchmark (default: 1000000)")
+        ->check(CLI::Range(10000L, 100000000L))
+        ->type_name("N");
+    sub->add_option("--time", bench_.least_time, "Least time of a benchmark in seconds (default: 0.5)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    sub->add_option("--repetitions", bench_.repetitions, "Repetitions of each, with mean, median and deviation (default: 1)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("N");
+    sub->callback([this] { action_ = [this] { return run_benchmarks(bench_); }; });
+  }
+
   void add_run_case() {
     CLI::App* sub = app_.add_subcommand("run-case", "One case in this process, for the runner")->group("");
     sub->add_option("folder", report_folder_)->required();
@@ -264,6 +283,7 @@ class CommandLine {
   RunOptions options_;
   int jobs_ = 0;
   bool json_ = false, ctest_ = false;
+  BenchOptions bench_;
   std::filesystem::path report_folder_, case_file_;
   std::string id_;
   std::function<int()> action_;

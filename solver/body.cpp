@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/density.hpp"
 #include "solver/schemes/hourglass.hpp"
 #include "solver/schemes/kernel_correction.hpp"
@@ -273,12 +274,13 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
       material);
 
   double compression = 0.0;
-  for (const Matrix<Dim>& L : velocity_gradient_) compression = std::max(compression, -L.trace());
-  if (!layers.empty()) {
-    strain_power_ = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i)
-      strain_power_ += p.volume(i) * p.stress[i].template topLeftCorner<Dim, Dim>().cwiseProduct(velocity_gradient_[i]).sum();
-  }
+  const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for schedule(static) reduction(max : compression)
+  for (std::int64_t k = 0; k < n; ++k) compression = std::max(compression, -velocity_gradient_[static_cast<std::size_t>(k)].trace());
+  if (!layers.empty())
+    strain_power_ = ordered_sum<1>(p.size(), [&](std::size_t i, auto& sum) {
+      sum[0] += p.volume(i) * p.stress[i].template topLeftCorner<Dim, Dim>().cwiseProduct(velocity_gradient_[i]).sum();
+    })[0];
   return compression;
 }
 
@@ -309,12 +311,12 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
   }
   external_power_ = damping_power_ = 0.0;
   if (damping > 0.0 || !gravity.isZero(0.0))
-    for (std::size_t i = 0; i < n; ++i) {
-      if (is_in_layer(i)) continue;
+    std::tie(external_power_, damping_power_) = std::tuple_cat(ordered_sum<2>(n, [&](std::size_t i, auto& sum) {
+      if (is_in_layer(i)) return;
       p.acceleration[i] += gravity - damping * velocity[i];
-      external_power_ += p.mass[i] * gravity.dot(velocity[i]);
-      damping_power_ += p.mass[i] * damping * velocity[i].squaredNorm();
-    }
+      sum[0] += p.mass[i] * gravity.dot(velocity[i]);
+      sum[1] += p.mass[i] * damping * velocity[i].squaredNorm();
+    }));
   for (std::size_t l = 0; l < layers.size(); ++l)
     external_power_ -= layers[l].ids.empty() ? 0.0 : layer_forces_[l].dot(layers[l].velocity(time));
   for (const AppliedForce<Dim>& load : loads.forces) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/xsph.hpp"
 
 namespace furrow {
@@ -15,10 +16,13 @@ void Simulation<Dim>::start() {
   body.accelerate(0.0, p.velocity);
   energy_ = {};
   initial_internal_ = energy_scale_ = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) initial_internal_ += p.mass[i] * p.internal_energy[i] - stored(i);
   powers_ = powers();
   account(0.0);
+  take_stock();
+  initial_internal_ = energy_.plastic;
+  energy_.plastic = 0.0;
   initial_energy_ = energy_.total();
+  imbalance_ = 0.0;
 }
 
 template <int Dim>
@@ -31,7 +35,7 @@ void Simulation<Dim>::step(double end) {
   limiter_ = last ? StepLimiter::end_of_run : length.limiter;
 
   // Kick to the middle of the step.
-  for (std::size_t i = 0; i < n; ++i) p.velocity[i] += 0.5 * dt * p.acceleration[i];
+  for_all(n, [&](std::size_t i) { p.velocity[i] += 0.5 * dt * p.acceleration[i]; });
   body.prescribe(time_ + 0.5 * dt, p.velocity);
 
   // Drift there, let the stress answer the motion of the whole step, drift on to its end.
@@ -41,13 +45,13 @@ void Simulation<Dim>::step(double end) {
 
   // Viscosity and damping depend on the velocity at the end of the step: predicted with the old acceleration.
   predicted_.resize(p.position.size());
-  for (std::size_t i = 0; i < n; ++i) predicted_[i] = p.velocity[i] + 0.5 * dt * p.acceleration[i];
+  for_all(n, [&](std::size_t i) { predicted_[i] = p.velocity[i] + 0.5 * dt * p.acceleration[i]; });
   body.prescribe(time_ + dt, predicted_);
   body.images.fill_velocities(predicted_);
   body.accelerate(time_ + dt, predicted_);
 
   // Kick to the end.
-  for (std::size_t i = 0; i < n; ++i) p.velocity[i] += 0.5 * dt * p.acceleration[i];
+  for_all(n, [&](std::size_t i) { p.velocity[i] += 0.5 * dt * p.acceleration[i]; });
   body.prescribe(time_ + dt, p.velocity);
 
   time_ = last ? end : time_ + dt;
@@ -55,6 +59,7 @@ void Simulation<Dim>::step(double end) {
   ++steps_;
   if (first_dt_ == 0.0) first_dt_ = length.dt;
   account(dt);
+  if (last || steps_ % stock_every == 0) take_stock();
   check();
 }
 
@@ -74,9 +79,9 @@ void Simulation<Dim>::drift(double dt) {
     body.images.fill_velocities(p.velocity);
     drift_.resize(n);
     xsph_velocity<Dim>(body.stencil(), p, p.velocity, body.scheme.xsph, drift_);
-    for (std::size_t i = 0; i < n; ++i) p.position[i] += dt * drift_[i];
+    for_all(n, [&](std::size_t i) { p.position[i] += dt * drift_[i]; });
   } else {
-    for (std::size_t i = 0; i < n; ++i) p.position[i] += dt * p.velocity[i];
+    for_all(n, [&](std::size_t i) { p.position[i] += dt * p.velocity[i]; });
   }
   body.refresh_neighbours();
 }
@@ -84,18 +89,11 @@ void Simulation<Dim>::drift(double dt) {
 template <int Dim>
 typename Simulation<Dim>::Powers Simulation<Dim>::powers() const {
   const Particles<Dim>& p = body.particles;
-  Powers sum{0.0, 0.0, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power()};
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    sum.viscous += p.mass[i] * body.power()[i].viscous;
-    sum.artificial += p.mass[i] * body.power()[i].artificial;
-  }
-  return sum;
-}
-
-template <int Dim>
-double Simulation<Dim>::stored(std::size_t i) const {
-  if (body.is_in_layer(i)) return 0.0;
-  return body.particles.mass[i] * std::visit([&](const auto& law) { return law.stored_energy(body.state(i)); }, body.material);
+  const auto [viscous, artificial] = ordered_sum<2>(p.size(), [&](std::size_t i, auto& sum) {
+    sum[0] += p.mass[i] * body.power()[i].viscous;
+    sum[1] += p.mass[i] * body.power()[i].artificial;
+  });
+  return {viscous, artificial, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power()};
 }
 
 template <int Dim>
@@ -109,26 +107,32 @@ void Simulation<Dim>::account(double dt) {
   energy_.external += 0.5 * dt * (before.external + powers_.external);
   energy_.contact += 0.5 * dt * (before.friction + powers_.friction);
   energy_.layer += 0.5 * dt * (before.layer + powers_.layer);
-
-  const bool heats = body.scheme.energy;
-  double internal = -initial_internal_;
-  energy_.kinetic = energy_.elastic = energy_.wall = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (heats) p.internal_energy[i] += dt * body.power()[i].viscous;
-    if (!body.is_in_layer(i)) energy_.kinetic += 0.5 * p.mass[i] * p.velocity[i].squaredNorm();
-    energy_.elastic += stored(i);
-    internal += p.mass[i] * p.internal_energy[i];
-  }
-  for (const RigidWall<Dim>& wall : body.walls)
-    energy_.wall += wall.energy(p, body.spacing, [this](std::size_t i) { return !body.is_in_layer(i); });
-  deposited_ += heats ? dt * powers_.viscous : 0.0;
-  energy_.plastic = internal - deposited_ - energy_.elastic;
-  energy_scale_ = std::max({energy_scale_, energy_.kinetic + energy_.elastic, std::abs(energy_.external)});
+  if (!body.scheme.energy) return;
+  for_all(p.size(), [&](std::size_t i) { p.internal_energy[i] += dt * body.power()[i].viscous; });
+  deposited_ += dt * powers_.viscous;
 }
 
 template <int Dim>
-double Simulation<Dim>::energy_imbalance() const {
-  return energy_scale_ > 0.0 ? (energy_.total() - initial_energy_) / energy_scale_ : 0.0;
+void Simulation<Dim>::take_stock() {
+  const Particles<Dim>& p = body.particles;
+  const auto [kinetic, elastic, internal] = std::visit(
+      [&](const auto& law) {
+        return ordered_sum<3>(p.size(), [&](std::size_t i, auto& sum) {
+          sum[2] += p.mass[i] * p.internal_energy[i];
+          if (body.is_in_layer(i)) return;
+          sum[0] += 0.5 * p.mass[i] * p.velocity[i].squaredNorm();
+          sum[1] += p.mass[i] * law.stored_energy(body.state(i));
+        });
+      },
+      body.material);
+  energy_.kinetic = kinetic;
+  energy_.elastic = elastic;
+  energy_.wall = 0.0;
+  for (const RigidWall<Dim>& wall : body.walls)
+    energy_.wall += wall.energy(p, body.spacing, [this](std::size_t i) { return !body.is_in_layer(i); });
+  energy_.plastic = internal - initial_internal_ - deposited_ - elastic;
+  energy_scale_ = std::max({energy_scale_, energy_.kinetic + energy_.elastic, std::abs(energy_.external)});
+  imbalance_ = energy_scale_ > 0.0 ? (energy_.total() - initial_energy_) / energy_scale_ : 0.0;
 }
 
 template <int Dim>
@@ -152,16 +156,23 @@ double Simulation<Dim>::angular_momentum() const {
 template <int Dim>
 void Simulation<Dim>::check() const {
   const Particles<Dim>& p = body.particles;
+  const auto inside = [&](std::size_t i) {
+    return body.is_in_layer(i) || ((p.position[i].array() >= watch.low.array()) && (p.position[i].array() <= watch.high.array())).all();
+  };
   const auto stop = [&](std::size_t i, std::string_view field, std::string_view what) {
     throw Divergence(fmt::format("t = {:.6g} s, step {}, body {}, particle {}: {} {}", time_, steps_, body.name, p.id[i], field, what));
   };
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  // One quick look at all of them; who it is and why is asked only when one is wrong. A sum is finite only where each term is.
+  const auto [wrong] = ordered_sum<1>(p.size(), [&](std::size_t i, auto& sum) {
+    const bool good = std::isfinite(p.acceleration[i].sum() + p.velocity[i].sum() + p.stress[i].sum()) && p.density[i] > 0.0 && inside(i);
+    sum[0] += good ? 0.0 : 1.0;
+  });
+  for (std::size_t i = 0; wrong > 0.0 && i < p.size(); ++i) {
     if (!p.acceleration[i].allFinite()) stop(i, "acceleration", "is not finite");
     if (!p.velocity[i].allFinite()) stop(i, "velocity", "is not finite");
     if (!p.stress[i].allFinite()) stop(i, "stress", "is not finite");
     if (!(p.density[i] > 0.0)) stop(i, "density", fmt::format("is {:.6g} kg/m^3", p.density[i]));
-    if (!body.is_in_layer(i) && !((p.position[i].array() >= watch.low.array()) && (p.position[i].array() <= watch.high.array())).all())
-      stop(i, "position", "has left the domain");
+    if (!inside(i)) stop(i, "position", "has left the domain");
   }
   // Neither a step nor an energy is a particle's, but one particle stands out.
   const auto largest = [&p](const auto& array) {

@@ -20,11 +20,9 @@ double own_weight(const K&, double h) {
 template <int Dim>
 void interpolate(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const double> f, std::span<double> out) {
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto kernel) {
+  for_each_particle(stencil, reads(volume, f), [&](std::size_t i, auto&& neighbours, auto kernel) {
     Lanes total{};
-    neighbours([&](const Pairs<Dim>& pair) {
-      total += gather(volume.data(), pair.j) * gather(f.data(), pair.j) * weight<Dim>(pair, kernel, h);
-    });
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const Lanes& f_j) { total += V_j * f_j * weight<Dim>(pair, kernel, h); });
     out[i] = sum(total) + volume[i] * f[i] * own_weight<Dim>(kernel, h);
   });
 }
@@ -32,9 +30,9 @@ void interpolate(const Stencil<Dim>& stencil, std::span<const double> volume, st
 template <int Dim>
 void summation_density(const Stencil<Dim>& stencil, std::span<const double> mass, std::span<double> density) {
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto kernel) {
+  for_each_particle(stencil, reads(mass), [&](std::size_t i, auto&& neighbours, auto kernel) {
     Lanes total{};
-    neighbours([&](const Pairs<Dim>& pair) { total += gather(mass.data(), pair.j) * weight<Dim>(pair, kernel, h); });
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& m_j) { total += m_j * weight<Dim>(pair, kernel, h); });
     density[i] = sum(total) + mass[i] * own_weight<Dim>(kernel, h);
   });
 }
@@ -43,12 +41,12 @@ template <int Dim>
 void shepard_density(const Stencil<Dim>& stencil, std::span<const double> mass, std::span<const double> before,
                      std::span<double> density) {
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto kernel) {
+  for_each_particle(stencil, reads(mass, before), [&](std::size_t i, auto&& neighbours, auto kernel) {
     Lanes mass_sum{}, volume_sum{};
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes m_j = gather(mass.data(), pair.j), W = weight<Dim>(pair, kernel, h);
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& m_j, const Lanes& rho_j) {
+      const Lanes W = weight<Dim>(pair, kernel, h);
       mass_sum += m_j * W;
-      volume_sum += m_j / gather(before.data(), pair.j) * W;
+      volume_sum += m_j / rho_j * W;
     });
     const double W_0 = own_weight<Dim>(kernel, h);
     density[i] = (sum(mass_sum) + mass[i] * W_0) / (sum(volume_sum) + mass[i] / before[i] * W_0);

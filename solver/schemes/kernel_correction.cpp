@@ -8,12 +8,11 @@ namespace furrow {
 template <int Dim>
 void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<KernelSums<Dim>> out) {
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+  for_each_particle(stencil, reads(volume), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     Lanes unity{};
     LaneVector<Dim> constant;
     LaneMatrix<Dim> linear;
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes V_j = gather(volume.data(), pair.j);
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {
       const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
       unity += pair.r > 1e-140 ? V_j * W : Lanes{};   // not the padding with the particle itself
       constant += V_j * pair.grad;
@@ -25,10 +24,9 @@ void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, st
 
 template <int Dim>
 void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out) {
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto) {
+  for_each_particle(stencil, reads(volume), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> linear;
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes V_j = gather(volume.data(), pair.j);
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {
       linear.add_outer(pair.x_ij, (-V_j) * pair.grad);
     });
     const Matrix<Dim> M = sum(linear);

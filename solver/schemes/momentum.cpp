@@ -22,52 +22,54 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
                const MomentumTerms& terms, const MomentumWorkspace<Dim>& w, std::span<Vector<Dim>> acceleration,
                std::span<MomentumPower> power) {
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+  // A_j is Q_j where the correction is quadratic; R_j is read where there is an artificial stress.
+  const auto read = [&] {
+    const auto& A = [&]() -> const auto& { if constexpr (Quadratic) return w.Q; else return w.A; }();
+    if constexpr (Artificial)
+      return reads(velocity, A, w.weight, p.density, p.sound_speed, w.R);
+    else
+      return reads(velocity, A, w.weight, p.density, p.sound_speed);
+  }();
+  for_each_particle(stencil, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
     const Lanes prefactor = broadcast(dual ? 1.0 / p.density[i] : 1.0);
     const auto kernel = [h](const Pairs<Dim>& pair) { return scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)); };
     // [A_i + A_j] grad W, or W [Q_i p(s_ij) - Q_j p(s_ji)]: even terms of p change sign against odd ones when i and j swap.
-    const auto stress_term = [&](const Pairs<Dim>& pair) {
+    const auto stress_term = [&](const Pairs<Dim>& pair, const auto& A_j) {
       if constexpr (Quadratic) {
         constexpr int terms_of_p = quadratic_terms<Dim>;
         const LaneVector<terms_of_p> basis = quadratic_basis<Dim>(pair.x_ij, h);
         LaneVector<Dim> f;
         for (int b = 0; b < terms_of_p; ++b)
-          for (int a = 0; a < Dim; ++a) {
-            const Lanes Q_j = gather(w.Q.data()->data(), pair.j, Dim * terms_of_p, b * Dim + a);
-            f[a] += (b < Dim ? w.Q[i](a, b) + Q_j : w.Q[i](a, b) - Q_j) * basis[b];
-          }
+          for (int a = 0; a < Dim; ++a)
+            f[a] += (b < Dim ? w.Q[i](a, b) + A_j[b * Dim + a] : w.Q[i](a, b) - A_j[b * Dim + a]) * basis[b];
         return kernel(pair) * f;
       } else {
-        return (broadcast<Dim>(w.A[i]) + gather<Dim>(w.A.data(), pair.j)) * pair.grad;
+        return (broadcast<Dim>(w.A[i]) + A_j) * pair.grad;
       }
     };
     LaneVector<Dim> a;
     Lanes stress_power{}, viscous_power{}, artificial_power{};
-    neighbours([&](const Pairs<Dim>& pair) {
-      const LaneVector<Dim> v_ij = v_i - gather<Dim>(velocity.data(), pair.j);
-      const Lanes weight = prefactor * gather(w.weight.data(), pair.j);
-      const LaneVector<Dim> from_stress = weight * stress_term(pair);
+    neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& v_j, const auto& A_j, const Lanes& weight_j, const Lanes& rho_j,
+                   const Lanes& c_j, const auto&... R_j) {
+      const LaneVector<Dim> v_ij = v_i - v_j;
+      const LaneVector<Dim> from_stress = (prefactor * weight_j) * stress_term(pair, A_j);
       a += from_stress;
       stress_power += dot(from_stress, v_ij);
-      if constexpr (Viscous || Artificial) {
-        const Lanes m_j = gather(p.mass.data(), pair.j);
-        if constexpr (Viscous) {
-          const Lanes c = 0.5 * (p.sound_speed[i] + gather(p.sound_speed.data(), pair.j));
-          const Lanes rho = 0.5 * (p.density[i] + gather(p.density.data(), pair.j));
-          const Lanes Pi = artificial_viscosity(*terms.viscosity, dot(v_ij, pair.x_ij), pair.r, h, c, rho);
-          const LaneVector<Dim> from_viscosity = (-m_j * Pi) * pair.grad;
-          a += from_viscosity;
-          viscous_power += dot(from_viscosity, v_ij);
-        }
-        if constexpr (Artificial) {
-          const double W_dx = value<K, Dim>(terms.spacing, h);
-          const Lanes f = kernel(pair) * (1.0 / W_dx);
-          const LaneMatrix<Dim> R = broadcast<Dim>(w.R[i]) + gather<Dim>(w.R.data(), pair.j);
-          const LaneVector<Dim> from_artificial = (m_j * power_of(f, terms.artificial_stress->n)) * (R * pair.grad);
-          a += from_artificial;
-          artificial_power += dot(from_artificial, v_ij);
-        }
+      const Lanes m_j = dual ? weight_j * rho_j : weight_j;
+      if constexpr (Viscous) {
+        const Lanes Pi = artificial_viscosity(*terms.viscosity, dot(v_ij, pair.x_ij), pair.r, h, 0.5 * (p.sound_speed[i] + c_j),
+                                              0.5 * (p.density[i] + rho_j));
+        const LaneVector<Dim> from_viscosity = (-m_j * Pi) * pair.grad;
+        a += from_viscosity;
+        viscous_power += dot(from_viscosity, v_ij);
+      }
+      if constexpr (Artificial) {
+        const Lanes f = kernel(pair) * (1.0 / value<K, Dim>(terms.spacing, h));
+        const LaneMatrix<Dim> R = broadcast<Dim>(w.R[i]) + (R_j, ...);
+        const LaneVector<Dim> from_artificial = (m_j * power_of(f, terms.artificial_stress->n)) * (R * pair.grad);
+        a += from_artificial;
+        artificial_power += dot(from_artificial, v_ij);
       }
     });
     acceleration[i] = sum(a);

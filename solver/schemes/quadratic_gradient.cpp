@@ -23,10 +23,10 @@ template <int Dim>
 void quadratic_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<QuadraticGradient<Dim>> out) {
   constexpr int terms = quadratic_terms<Dim>;
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+  for_each_particle(stencil, reads(volume), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     std::array<Lanes, terms*(terms + 1) / 2> upper{};
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes weight = gather(volume.data(), pair.j) * (scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)));
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {
+      const Lanes weight = V_j * (scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)));
       const LaneVector<terms> p = quadratic_basis<Dim>(pair.x_ij, h);
       for (std::size_t a = 0, k = 0; a < terms; ++a) {
         const Lanes wp = weight * p.c[a];
@@ -45,12 +45,12 @@ void quadratic_velocity_gradient(const Stencil<Dim>& stencil, std::span<const do
                                  std::span<const QuadraticGradient<Dim>> correction, std::span<Matrix<Dim>> out) {
   constexpr int terms = quadratic_terms<Dim>;
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+  for_each_particle(stencil, reads(volume, velocity), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     std::array<LaneVector<Dim>, terms> total{};
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes weight = gather(volume.data(), pair.j) * (scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)));
-      const LaneVector<Dim> v_ji = gather<Dim>(velocity.data(), pair.j) - v_i;
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const LaneVector<Dim>& v_j) {
+      const Lanes weight = V_j * (scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)));
+      const LaneVector<Dim> v_ji = v_j - v_i;
       const LaneVector<terms> p = quadratic_basis<Dim>(pair.x_ij, h);
       for (std::size_t a = 0; a < terms; ++a) total[a] += (weight * p.c[a]) * v_ji;
     });

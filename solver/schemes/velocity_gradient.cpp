@@ -5,12 +5,11 @@ namespace furrow {
 template <int Dim>
 void gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const double> f,
               std::span<const Matrix<Dim>> correction, std::span<Vector<Dim>> out) {
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto) {
+  for_each_particle(stencil, reads(volume, f), [&](std::size_t i, auto&& neighbours, auto) {
     LaneVector<Dim> total;
     const Lanes f_i = broadcast(f[i]);
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes V_j = gather(volume.data(), pair.j);
-      total += (V_j * (gather(f.data(), pair.j) - f_i)) * pair.grad;
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const Lanes& f_j) {
+      total += (V_j * (f_j - f_i)) * pair.grad;
     });
     const Vector<Dim> plain = sum(total);
     out[i] = correction.empty() ? plain : Vector<Dim>(correction[i].transpose() * plain);
@@ -20,13 +19,11 @@ void gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::
 template <int Dim>
 void velocity_gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const Vector<Dim>> velocity,
                        std::span<const Matrix<Dim>> correction, std::span<Matrix<Dim>> out) {
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto) {
+  for_each_particle(stencil, reads(volume, velocity), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> L;
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes V_j = gather(volume.data(), pair.j);
-      const LaneVector<Dim> v_ji = gather<Dim>(velocity.data(), pair.j) - v_i;
-      L.add_outer(v_ji, V_j * pair.grad);
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const LaneVector<Dim>& v_j) {
+      L.add_outer(v_j - v_i, V_j * pair.grad);
     });
     const Matrix<Dim> plain = sum(L);
     out[i] = correction.empty() ? plain : Matrix<Dim>(plain * correction[i]);

@@ -15,8 +15,8 @@ struct ArtificialViscosity {
 inline Lanes artificial_viscosity(const ArtificialViscosity& model, const Lanes& v_dot_x, const Lanes& r, double h, const Lanes& c,
                                   const Lanes& rho) {
   const Lanes approach = v_dot_x < 0.0 ? v_dot_x : Lanes{};
-  const Lanes mu = h * approach / (r * r + 0.01 * h * h);
-  return (model.beta * mu - model.alpha * c) * mu / rho;
+  const Lanes mu_over_rho = h * approach / ((r * r + 0.01 * h * h) * rho);   // one division, not two
+  return (model.beta * mu_over_rho * rho - model.alpha * c) * mu_over_rho;
 }
 
 }  // namespace furrow

@@ -6,13 +6,13 @@ template <int Dim>
 void xsph_velocity(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, double eps,
                    std::span<Vector<Dim>> out) {
   const double h = stencil.smoothing_length;
-  for_each_particle(stencil, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+  for_each_particle(stencil, reads(p.mass, p.density, velocity), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     LaneVector<Dim> drift;
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
-    neighbours([&](const Pairs<Dim>& pair) {
-      const Lanes rho = 0.5 * (p.density[i] + gather(p.density.data(), pair.j));
+    neighbours([&](const Pairs<Dim>& pair, const Lanes& m_j, const Lanes& rho_j, const LaneVector<Dim>& v_j) {
+      const Lanes rho = 0.5 * (p.density[i] + rho_j);
       const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
-      drift += (gather(p.mass.data(), pair.j) / rho * W) * (gather<Dim>(velocity.data(), pair.j) - v_i);
+      drift += (m_j / rho * W) * (v_j - v_i);
     });
     out[i] = velocity[i] + eps * sum(drift);
   });

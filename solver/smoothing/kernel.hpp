@@ -29,6 +29,15 @@ struct KernelShape<K, 1> {
 template <SmoothingKernel K, int Dim>
 using Shape = typename KernelShape<K, Dim>::type;
 
+/// (dw/dq)/q: grad W = scale/h^2 (dw/dq)/q (x_i - x_j). Kernels that know it spare a division.
+template <class S, class Real>
+constexpr Real dw_over_q(const Real& q) {
+  if constexpr (requires { S::dw_over_q(q); })
+    return S::dw_over_q(q);
+  else
+    return S::dw(q) / q;
+}
+
 /// sigma_d / h^d, 1/m^Dim.
 template <SmoothingKernel K, int Dim>
 constexpr double scale(double h) {

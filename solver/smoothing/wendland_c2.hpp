@@ -19,9 +19,13 @@ struct WendlandC2 {
     return a * a * a * a * (1.0 + 4.0 * r);
   }
   template <class Real>
-  static constexpr Real dw(const Real& q) {
+  static constexpr Real dw_over_q(const Real& q) {
     const Real r = 0.5 * q, a = positive_part(1.0 - r);
-    return -10.0 * r * a * a * a;
+    return -5.0 * a * a * a;
+  }
+  template <class Real>
+  static constexpr Real dw(const Real& q) {
+    return q * dw_over_q(q);
   }
 
   struct OneDimensional {
@@ -31,9 +35,13 @@ struct WendlandC2 {
       return a * a * a * (1.0 + 3.0 * r);
     }
     template <class Real>
-    static constexpr Real dw(const Real& q) {
+    static constexpr Real dw_over_q(const Real& q) {
       const Real r = 0.5 * q, a = positive_part(1.0 - r);
-      return -6.0 * r * a * a;
+      return -3.0 * a * a;
+    }
+    template <class Real>
+    static constexpr Real dw(const Real& q) {
+      return q * dw_over_q(q);
     }
   };
 

@@ -19,9 +19,13 @@ struct WendlandC4 {
     return a2 * a2 * a2 * (1.0 + r * (6.0 + 35.0 / 3.0 * r));
   }
   template <class Real>
-  static constexpr Real dw(const Real& q) {
+  static constexpr Real dw_over_q(const Real& q) {
     const Real r = 0.5 * q, a = positive_part(1.0 - r), a2 = a * a;
-    return -28.0 / 3.0 * r * (1.0 + 5.0 * r) * a2 * a2 * a;
+    return -14.0 / 3.0 * (1.0 + 5.0 * r) * a2 * a2 * a;
+  }
+  template <class Real>
+  static constexpr Real dw(const Real& q) {
+    return q * dw_over_q(q);
   }
 
   struct OneDimensional {
@@ -31,9 +35,13 @@ struct WendlandC4 {
       return a2 * a2 * a * (1.0 + r * (5.0 + 8.0 * r));
     }
     template <class Real>
-    static constexpr Real dw(const Real& q) {
+    static constexpr Real dw_over_q(const Real& q) {
       const Real r = 0.5 * q, a = positive_part(1.0 - r), a2 = a * a;
-      return -7.0 * r * (1.0 + 4.0 * r) * a2 * a2;
+      return -3.5 * (1.0 + 4.0 * r) * a2 * a2;
+    }
+    template <class Real>
+    static constexpr Real dw(const Real& q) {
+      return q * dw_over_q(q);
     }
   };
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
@@ -17,7 +16,6 @@ namespace furrow {
 
 inline constexpr int lane_count = 8;
 typedef double Lanes __attribute__((vector_size(lane_count * sizeof(double))));
-typedef std::int32_t LaneIndex __attribute__((vector_size(lane_count * sizeof(std::int32_t))));
 
 constexpr double positive_part(double a) { return a > 0.0 ? a : 0.0; }
 constexpr Lanes positive_part(const Lanes& a) { return a > 0.0 ? a : Lanes{}; }
@@ -35,21 +33,31 @@ inline Lanes square_root(const Lanes& a) {
 
 inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 
-inline LaneIndex load_index(const std::int32_t* first) {
-  LaneIndex j;
-  std::memcpy(&j, first, sizeof j);
-  return j;
-}
+/// Four doubles that come from memory in one piece.
+typedef double Quad __attribute__((vector_size(4 * sizeof(double))));
 
-/// array[stride * j + offset] for eight j.
-inline Lanes gather(const double* array, const LaneIndex& j, int stride = 1, int offset = 0) {
-#if defined(__AVX512F__)
-  return reinterpret_cast<Lanes>(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(j * stride), array + offset, sizeof(double)));
-#else
-  Lanes values;
-  for (int l = 0; l < lane_count; ++l) values[l] = array[static_cast<std::ptrdiff_t>(stride) * j[l] + offset];
-  return values;
-#endif
+/// Rows j[0..7] of an array of rows, `Quads` quads each, turned into lanes: element 4 q + c of the result holds number c of quad q
+/// of each row. Eight whole rows and some shuffles cost half of what as many gathers cost.
+template <int Quads>
+std::array<Lanes, 4 * Quads> load_rows(const Quad* rows, const std::int32_t* j) {
+  std::array<Lanes, 4 * Quads> lanes;
+  for (int q = 0; q < Quads; ++q) {
+    const auto two = [&](int l) {   // quad q of rows l and l + 4, side by side
+      const auto quad = [&](int k) { return rows[static_cast<std::ptrdiff_t>(j[k]) * Quads + q]; };
+      return __builtin_shufflevector(quad(l), quad(l + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    const Lanes a = two(0), b = two(1), c = two(2), d = two(3);
+    const Lanes ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Lanes ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Lanes cd_even = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Lanes cd_odd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+    Lanes* const out = lanes.data() + 4 * q;
+    out[0] = __builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 4, 5, 12, 13);
+    out[1] = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+    out[2] = __builtin_shufflevector(ab_even, cd_even, 2, 3, 10, 11, 6, 7, 14, 15);
+    out[3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  return lanes;
 }
 
 /// N components, each of eight particles.
@@ -123,21 +131,6 @@ LaneMatrix<N> broadcast(const Matrix<N>& m) {
   LaneMatrix<N> b;
   for (std::size_t k = 0; k < b.c.size(); ++k) b.c[k] = broadcast(m.data()[k]);
   return b;
-}
-
-/// Vectors and matrices of eight particles out of an array of them.
-template <int N>
-LaneVector<N> gather(const Vector<N>* array, const LaneIndex& j) {
-  LaneVector<N> v;
-  for (int a = 0; a < N; ++a) v[a] = gather(array->data(), j, N, a);
-  return v;
-}
-template <int N>
-  requires(N > 1)
-LaneMatrix<N> gather(const Matrix<N>* array, const LaneIndex& j) {
-  LaneMatrix<N> m;
-  for (int k = 0; k < N * N; ++k) m.c[static_cast<std::size_t>(k)] = gather(array->data(), j, N * N, k);
-  return m;
 }
 
 /// Sums over the lanes.
