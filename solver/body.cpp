@@ -120,11 +120,37 @@ void Body<Dim>::build_reference() {
   undeformed_.id.assign(n, 0);
   undeformed_.mass = p.mass;
   undeformed_.density.assign(p.position.size(), rho_0);
+  undeformed_.sound_speed.assign(p.position.size(), 0.0);   // nothing viscous is summed over pairs here
   undeformed_.stress.assign(n, Tensor::Zero());
   for (std::size_t i = 0; i < p.position.size(); ++i) volume_[i] = p.mass[i] / rho_0;
   velocity_gradient_.assign(n, Matrix<Dim>::Zero());
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
   make_correction();
+}
+
+template <int Dim>
+bool Body<Dim>::neighbours_are_stale() const {
+  const Particles<Dim>& p = particles;
+  const auto n = static_cast<std::int64_t>(p.size());
+  double low[Dim], high[Dim], total = 0.0;
+  std::fill_n(low, Dim, std::numeric_limits<double>::infinity());
+  std::fill_n(high, Dim, -std::numeric_limits<double>::infinity());
+#pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high) reduction(+ : total)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vector<Dim> moved = p.position[i] - p.position_at_build[i];
+    for (int a = 0; a < Dim; ++a) {
+      low[a] = std::min(low[a], moved[a]);
+      high[a] = std::max(high[a], moved[a]);
+    }
+    total += moved.sum();   // not a number where any of them is not
+  }
+  // No two particles have come nearer to each other than the diagonal of the box that holds all displacements: a body that flies
+  // without deforming keeps its neighbours.
+  Vector<Dim> lowest = Eigen::Map<const Vector<Dim>>(low), highest = Eigen::Map<const Vector<Dim>>(high);
+  images.include_images(lowest, highest);
+  const double allowed = skin * support(scheme.kernel) * smoothing_length();
+  return !std::isfinite(total) || !((highest - lowest).squaredNorm() < allowed * allowed);
 }
 
 template <int Dim>
@@ -139,17 +165,8 @@ void Body<Dim>::refresh_neighbours(bool force) {
     fill_images();
     return;
   }
-  const double allowed = 0.5 * skin * support(scheme.kernel) * smoothing_length();
-  double moved2 = 0.0;
-  if (!force) {
-#pragma omp parallel for schedule(static) reduction(max : moved2)
-    for (std::size_t i = 0; i < n; ++i) {
-      const double d2 = (p.position[i] - p.position_at_build[i]).squaredNorm();
-      moved2 = d2 < moved2 ? moved2 : d2;   // keeps NaN
-    }
-  }
-  if (force || !(moved2 < allowed * allowed)) {
-    for (std::size_t i = 0; i < n; ++i) p.position[i] = box.wrapped(p.position[i]);
+  if (force || neighbours_are_stale()) {
+    for_all(n, [&](std::size_t i) { p.position[i] = box.wrapped(p.position[i]); });
     std::copy_n(p.position.begin(), n, p.position_at_build.begin());
     find_neighbours();
   }
@@ -221,15 +238,11 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   for (const BoundaryLayer<Dim>& layer : layers)   // layers do not strain
     for (const std::int32_t id : layer.ids) velocity_gradient_[index_of(id)].setZero();
 
-  if (in_reference_frame()) {
-    const auto n = static_cast<std::int64_t>(p.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t k = 0; k < n; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+  if (in_reference_frame())
+    for_all(p.size(), [&](std::size_t i) {
       gradient_rate_[i] = velocity_gradient_[i];
       velocity_gradient_[i] *= (p.deformation_gradient[i] + 0.5 * dt * gradient_rate_[i]).inverse();
-    }
-  }
+    });
 
   const bool shepard = scheme.density == DensityEquation::shepard ||
                        (scheme.shepard_every > 0 && step % scheme.shepard_every == scheme.shepard_every - 1);
@@ -329,6 +342,13 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
       external_power_ += p.mass[i] * a.dot(velocity[i]);
     }
   }
+  for (const HeldFace& face : loads.faces)
+    for (const auto& [outer, inner] : face.columns) {
+      const std::size_t i = index_of(outer), j = index_of(inner);
+      const Vector<Dim> lambda = (1.5 * p.acceleration[i] - 0.5 * p.acceleration[j]) / (2.25 / p.mass[i] + 0.25 / p.mass[j]);
+      p.acceleration[i] -= 1.5 / p.mass[i] * lambda;
+      p.acceleration[j] += 0.5 / p.mass[j] * lambda;
+    }
   reactions_.assign(loads.motions.size(), Vector<Dim>::Zero());
   for (std::size_t k = 0; k < loads.motions.size(); ++k)
     for (const std::int32_t id : loads.motions[k].ids) {
@@ -357,11 +377,7 @@ void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
         first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
   }
   momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    power_[i].viscous = -viscous_pressure(i) * velocity_gradient_[i].trace() / p.density[i];
-  }
+  for_all(p.size(), [&](std::size_t i) { power_[i].viscous = -viscous_pressure(i) * velocity_gradient_[i].trace() / p.density[i]; });
   if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
     images.fill_tensors(std::span(p.deformation_gradient));
     images.fill_tensors(std::span(gradient_rate_));

@@ -76,6 +76,7 @@ class Body {
   void set_state(std::size_t i, const MaterialState& state);
 
  private:
+  bool neighbours_are_stale() const;
   void find_neighbours();
   void fill_images();
   LayerSurroundings<Dim> layer_surroundings();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -16,6 +17,14 @@ struct PrescribedMotion {
   std::string name;
   std::vector<std::int32_t> ids;
   std::function<Vector<Dim>(double time)> velocity;   ///< m/s
+};
+
+/// A face of a body that is held: half a spacing outside the outermost particles, where the velocity read across from the two
+/// outermost, 3/2 v_1 - 1/2 v_2, stays zero. Held particles hold the body half a spacing further out or in, an error of first
+/// order in the spacing; this one is of second order. The force that holds acts in the same proportion and does no work.
+struct HeldFace {
+  std::string name;
+  std::vector<std::array<std::int32_t, 2>> columns;   ///< ids, the outermost first; no particle in two of them
 };
 
 /// A force shared by particles, by id, in proportion to their mass: a traction on a tip, a load on a patch.
@@ -35,6 +44,7 @@ struct Loads {
   double damping_end = std::numeric_limits<double>::infinity();   ///< s; from then on there is no damping
   std::vector<PrescribedMotion<Dim>> motions;
   std::vector<AppliedForce<Dim>> forces;
+  std::vector<HeldFace> faces;                        ///< velocities must obey them from the start
 
   Vector<Dim> gravity_at(double time) const { return gravity_factor ? Vector<Dim>(gravity_factor(time) * gravity) : gravity; }
   double damping_at(double time) const { return time < damping_end ? damping : 0.0; }

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "solver/particles/ordered_sum.hpp"
 #include "solver/tensor/tensor.hpp"
 
 namespace furrow {
@@ -70,9 +73,11 @@ void resize(Particles<Dim>& p, std::size_t n) {
 template <int Dim>
 void permute(Particles<Dim>& p, const std::vector<std::int32_t>& order) {
   for_each_field(p, [&order](const Field&, auto& array) {
-    auto sorted = array;
+    static thread_local std::remove_reference_t<decltype(array)> sorted;   // kept: memory is not asked for at every sort
     sorted.resize(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = array[static_cast<std::size_t>(order[k])];
+    const auto source = std::span(std::as_const(array));
+    const auto target = std::span(sorted);
+    for_all(order.size(), [&](std::size_t k) { target[k] = source[static_cast<std::size_t>(order[k])]; });
     array.swap(sorted);
   });
 }

@@ -61,6 +61,15 @@ class Images {
       }
     return images;
   }
+  /// Widens a box of displacements until it holds those of all images as well.
+  void include_images(Vector<Dim>& low, Vector<Dim>& high) const {
+    const Vector<Dim> centre = 0.5 * (low + high), half = 0.5 * (high - low);
+    for (const Map& m : maps_) {
+      const Vector<Dim> c = m.turn * centre, e = m.turn.cwiseAbs() * half;
+      low = low.cwiseMin(c - e);
+      high = high.cwiseMax(c + e);
+    }
+  }
   /// New image k is old image order[k].
   void permute(const std::vector<std::int32_t>& order) {
     auto source = source_;

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -124,42 +125,55 @@ void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>
   list.count.resize(static_cast<std::size_t>(n));
   list.begin[0] = 0;
 
+  // One array an axis, so that eight candidates are looked at together; room at the end to read past the last.
+  std::array<std::vector<double>, static_cast<std::size_t>(Dim)> axis;
+  for (int a = 0; a < Dim; ++a) {
+    std::vector<double>& x = axis[static_cast<std::size_t>(a)];
+    x.resize(position.size() + lane_count);
+    for (std::size_t i = 0; i < position.size(); ++i) x[i] = position[i][a];
+  }
+
   // Each thread fills a block of rows; the blocks are laid end to end, so that the list does not depend on how many there are.
-  std::vector<std::vector<std::int32_t>> blocks(static_cast<std::size_t>(omp_get_max_threads()));
+  list.blocks.resize(static_cast<std::size_t>(omp_get_max_threads()));
+  std::vector<std::size_t> used(list.blocks.size(), 0);
 #pragma omp parallel
   {
-    std::vector<std::int32_t>& block = blocks[static_cast<std::size_t>(omp_get_thread_num())];
+    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    std::vector<std::int32_t>& block = list.blocks[thread];
+    std::size_t end = 0;
 #pragma omp for schedule(static)
     for (std::int64_t i = 0; i < n; ++i) {
-      const Vector<Dim> x_i = position[static_cast<std::size_t>(i)];
-      const std::size_t first = block.size();
+      const LaneVector<Dim> x_i = broadcast<Dim>(position[static_cast<std::size_t>(i)]);
+      const std::size_t first = end;
       const auto keep_near = [&](std::int32_t from, std::int32_t to) {
-        const std::size_t before = block.size();
-        block.resize(before + static_cast<std::size_t>(to - from));
-        std::int32_t* out = block.data() + before;
-        for (std::int32_t j = from; j < to; ++j) {
-          const Vector<Dim>& x_j = position[static_cast<std::size_t>(j)];
-          const double r2 = periodic ? grid.box.displacement(x_i, x_j).squaredNorm() : (x_i - x_j).squaredNorm();
-          *out = j;   // written always, kept when near: no branch to mispredict
-          out += static_cast<int>(r2 < reach2) & static_cast<int>(j != i);
+        const std::size_t needed = end + static_cast<std::size_t>(to - from) + 2 * lane_count;
+        if (block.size() < needed) block.resize(2 * needed);
+        for (std::int32_t j = from; j < to; j += lane_count) {
+          LaneVector<Dim> x_ij;
+          for (int a = 0; a < Dim; ++a) x_ij[a] = x_i[a] - load(axis[static_cast<std::size_t>(a)].data() + j);
+          if (periodic) x_ij = nearest_image(x_ij, grid.box);
+          unsigned mask = to - j < lane_count ? (1u << (to - j)) - 1u : 0xffu;
+          if (i >= j && i < j + lane_count) mask &= ~(1u << (i - j));
+          end += static_cast<std::size_t>(write_where_less(dot(x_ij, x_ij), reach2, mask, j, block.data() + end));
         }
-        block.resize(static_cast<std::size_t>(out - block.data()));
       };
-      const std::int32_t home = grid.cell_of(x_i);
+      const std::int32_t home = grid.cell_of(position[static_cast<std::size_t>(i)]);
       for_each_run<Dim>(grid, cell_begin, home, keep_near);
       if (!image_begin.empty())
         for_each_run<Dim>(grid, image_begin, home, [&](std::int32_t from, std::int32_t to) {
           keep_near(static_cast<std::int32_t>(n) + from, static_cast<std::int32_t>(n) + to);
         });
-      list.count[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(block.size() - first);
-      while ((block.size() - first) % lane_count != 0) block.push_back(static_cast<std::int32_t>(i));
-      list.begin[static_cast<std::size_t>(i) + 1] = static_cast<std::int64_t>(block.size() - first);
+      list.count[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(end - first);
+      if (block.size() < end + lane_count) block.resize(2 * (end + lane_count));
+      while ((end - first) % lane_count != 0) block[end++] = static_cast<std::int32_t>(i);
+      list.begin[static_cast<std::size_t>(i) + 1] = static_cast<std::int64_t>(end - first);
     }
+    used[thread] = end;
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) list.begin[i + 1] += list.begin[i];
   list.index.resize(static_cast<std::size_t>(list.begin.back()));
   auto out = list.index.begin();
-  for (const auto& block : blocks) out = std::copy(block.begin(), block.end(), out);
+  for (std::size_t t = 0; t < used.size(); ++t) out = std::copy_n(list.blocks[t].begin(), used[t], out);
 }
 
 #define FURROW_INSTANTIATE(Dim)                                                                              \

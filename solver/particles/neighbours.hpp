@@ -37,6 +37,7 @@ struct NeighbourList {
   std::vector<std::int64_t> begin;   ///< size n + 1; begin[i + 1] - begin[i] is a multiple of lane_count
   std::vector<std::int32_t> index;
   std::vector<std::int32_t> count;   ///< neighbours of i without padding
+  std::vector<std::vector<std::int32_t>> blocks;   ///< where threads put their rows while they search; kept for the next time
   double reach = 0.0;                ///< m
 
   std::size_t size() const { return count.size(); }

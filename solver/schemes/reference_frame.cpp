@@ -20,21 +20,21 @@ void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p,
                          std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi, double zeta,
                          std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
   const double h = reference.smoothing_length;
-  for_each_particle(reference, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+  const auto read = reads(p.position, velocity, p.deformation_gradient, gradient_rate, p.density, p.sound_speed, volume);
+  for_each_particle(reference, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
     const LaneVector<Dim> x_i = broadcast<Dim>(p.position[i]), v_i = broadcast<Dim>(velocity[i]);
     const LaneMatrix<Dim> F_i = broadcast<Dim>(p.deformation_gradient[i]), G_i = broadcast<Dim>(gradient_rate[i]);
     const Lanes half = broadcast(0.5);
     LaneVector<Dim> a;
     Lanes sprung{}, damped{};
-    neighbours([&](const Pairs<Dim>& pair) {
-      const LaneVector<Dim> x_ij = x_i - gather<Dim>(p.position.data(), pair.j);
-      const LaneVector<Dim> v_ij = v_i - gather<Dim>(velocity.data(), pair.j);
-      const LaneVector<Dim> delta = x_ij - half * ((F_i + gather<Dim>(p.deformation_gradient.data(), pair.j)) * pair.x_ij);
-      const LaneVector<Dim> d = v_ij - half * ((G_i + gather<Dim>(gradient_rate.data(), pair.j)) * pair.x_ij);
-      const Lanes rho = 0.5 * (p.density[i] + gather(p.density.data(), pair.j));
-      const Lanes c = 0.5 * (p.sound_speed[i] + gather(p.sound_speed.data(), pair.j));
+    neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& x_j, const LaneVector<Dim>& v_j, const LaneMatrix<Dim>& F_j,
+                   const LaneMatrix<Dim>& G_j, const Lanes& rho_j, const Lanes& c_j, const Lanes& V_j) {
+      const LaneVector<Dim> x_ij = x_i - x_j, v_ij = v_i - v_j;
+      const LaneVector<Dim> delta = x_ij - half * ((F_i + F_j) * pair.x_ij);
+      const LaneVector<Dim> d = v_ij - half * ((G_i + G_j) * pair.x_ij);
+      const Lanes rho = 0.5 * (p.density[i] + rho_j), c = 0.5 * (p.sound_speed[i] + c_j);
       const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
-      const Lanes weight = broadcast(-volume[i] / p.mass[i]) * rho * c * W * gather(volume.data(), pair.j) /
+      const Lanes weight = broadcast(-volume[i] / p.mass[i]) * rho * c * W * V_j /
                            (pair.r * pair.r * (dot(x_ij, x_ij) + 1e-300));
       const Lanes spring = chi * weight * c * dot(delta, x_ij), damper = zeta * h * weight * dot(d, x_ij);
       const Lanes approach = dot(x_ij, v_ij);

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
@@ -32,6 +34,30 @@ inline Lanes square_root(const Lanes& a) {
 }
 
 inline double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
+
+inline Lanes load(const double* first) {
+  Lanes a;
+  std::memcpy(&a, first, sizeof a);
+  return a;
+}
+
+/// Writes first + l for the lanes l of `mask` in which a < limit, one behind the other, and returns how many there are. `out` must
+/// have room for all lanes.
+inline int write_where_less(const Lanes& a, double limit, unsigned mask, std::int32_t first, std::int32_t* out) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  const __mmask8 less = _mm512_mask_cmp_pd_mask(static_cast<__mmask8>(mask), reinterpret_cast<__m512d>(a), _mm512_set1_pd(limit), _CMP_LT_OQ);
+  const __m256i index = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm256_mask_compressstoreu_epi32(out, less, index);
+  return std::popcount(static_cast<unsigned>(less));
+#else
+  std::int32_t* end = out;
+  for (int l = 0; l < lane_count; ++l) {
+    *end = first + l;   // written always, kept when near: no branch to mispredict
+    end += static_cast<int>(a[l] < limit) & static_cast<int>(mask >> l & 1u);
+  }
+  return static_cast<int>(end - out);
+#endif
+}
 
 /// Four doubles that come from memory in one piece.
 typedef double Quad __attribute__((vector_size(4 * sizeof(double))));

@@ -19,6 +19,7 @@ Problem oscillating_plate(const Parameters& input) {
   const double L = input.quantity("length", dimension::length, range::positive);
   const double H = input.quantity("thickness", dimension::length, range::positive);
   const double clamp = input.quantity("clamp_length", dimension::length, range::positive);
+  const bool by_faces = input.choice("clamp", {"faces", "layers"}) == "faces";
   const double V_f = input.number("velocity_amplitude", range::positive);
   const double end = input.quantity("end_time", dimension::time, range::positive);
   const double courant = input.number_or("courant", 0.4, range::positive);
@@ -28,20 +29,31 @@ Problem oscillating_plate(const Parameters& input) {
     const double dx = run.resolution().spacing;
     const int across = cells(H, dx, "thickness"), along = cells(L, dx, "length"), held = cells(clamp, dx, "clamp_length");
 
-    // Geometry: the plate from -clamp to L about y = 0, between layers that fill a support above and below its held part.
+    // Geometry: the plate from -clamp to L about y = 0.
     Simulation<2> simulation;
     simulation.body = elastic_body(run, material, scheme);
     Body<2>& body = simulation.body;
     body.add(block(held + along, across, dx, {-clamp, -0.5 * H}));
     const int plate = static_cast<int>(body.particles.size());
-    const int layers = static_cast<int>(std::ceil(support(scheme.kernel) * body.scheme.smoothing_ratio));
-    body.add(block(held, layers, dx, {-clamp, 0.5 * H}));
-    body.add(block(held, layers, dx, {-clamp, -0.5 * H - layers * dx}));
 
-    // Boundaries: the layers do not move.
-    PrescribedMotion<2> rest{"clamp", {}, [](double) { return Vector<2>(Vector<2>::Zero()); }};
-    for (int i = plate; i < static_cast<int>(body.particles.size()); ++i) rest.ids.push_back(i);
-    body.loads.motions.push_back(rest);
+    // Boundaries: both faces of the part behind x = 0 are held; or, as the literature has it, layers that do not move fill a support
+    // above and below it.
+    if (by_faces) {
+      HeldFace faces{"clamp", {}};
+      for (int i = 0; i < held; ++i) {
+        const int bottom = i * across, top = bottom + across - 1;
+        faces.columns.push_back({bottom, bottom + 1});
+        faces.columns.push_back({top, top - 1});
+      }
+      body.loads.faces.push_back(faces);
+    } else {
+      const int layers = static_cast<int>(std::ceil(support(scheme.kernel) * body.scheme.smoothing_ratio));
+      body.add(block(held, layers, dx, {-clamp, 0.5 * H}));
+      body.add(block(held, layers, dx, {-clamp, -0.5 * H - layers * dx}));
+      PrescribedMotion<2> rest{"clamp", {}, [](double) { return Vector<2>(Vector<2>::Zero()); }};
+      for (int i = plate; i < static_cast<int>(body.particles.size()); ++i) rest.ids.push_back(i);
+      body.loads.motions.push_back(rest);
+    }
 
     // Start: the first mode of a clamped beam, v_y = V_f c_0 F(x)/F(L), c_0 = sqrt(K/rho).
     const double k = 1.875104068711961 / L, c_0 = std::sqrt(material.bulk_modulus / material.reference_density);
@@ -65,7 +77,7 @@ Problem oscillating_plate(const Parameters& input) {
                   [tip, y_0](const Simulation<2>& s) { return s.body.particles.position[s.body.index_of(tip)][1] - y_0; });
     dynamic.until(end, 400, 4);
     exercise(run, scheme);
-    run.exercises("boundaries/prescribed_motion");
+    run.exercises(by_faces ? "boundaries/held_face" : "boundaries/prescribed_motion");
 
     const std::vector<double>& u = dynamic.column("tip_deflection");
     const std::vector<double> t_0 = zeros(dynamic.column("time"), u);

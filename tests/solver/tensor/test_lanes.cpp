@@ -7,28 +7,24 @@
 
 namespace furrow {
 
-TEST_CASE("gathers fetch the components of the particles asked for", "[tensor][lanes]") {
-  std::vector<double> number(50);
-  std::vector<Vector<3>> vector(50);
-  std::vector<Matrix<2>> matrix(50);
-  for (int i = 0; i < 50; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    number[k] = i;
-    vector[k] = {i + 0.1, i + 0.2, i + 0.3};
-    matrix[k] << i + 0.11, i + 0.12, i + 0.21, i + 0.22;
-  }
-  const std::int32_t indices[lane_count] = {49, 0, 7, 7, 31, 2, 48, 16};
-  const LaneIndex j = load_index(indices);
-  const Lanes n = gather(number.data(), j);
-  const LaneVector<3> v = gather<3>(vector.data(), j);
-  const LaneMatrix<2> m = gather<2>(matrix.data(), j);
-  for (int l = 0; l < lane_count; ++l) {
-    const auto k = static_cast<std::size_t>(indices[l]);
-    CHECK(n[l] == number[k]);
-    for (int a = 0; a < 3; ++a) CHECK(v[a][l] == vector[k][a]);
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b) CHECK(m(a, b)[l] == matrix[k](a, b));
-  }
+TEST_CASE("rows are turned into lanes", "[tensor][lanes]") {
+  constexpr int quads = 3;
+  std::vector<Quad> rows(50 * quads);
+  for (std::size_t i = 0; i < 50; ++i)
+    for (std::size_t k = 0; k < 4 * quads; ++k) rows[i * quads + k / 4][static_cast<int>(k % 4)] = static_cast<double>(100 * i + k);
+  const std::int32_t j[lane_count] = {49, 0, 7, 7, 31, 2, 48, 16};
+  const auto lanes = load_rows<quads>(rows.data(), j);
+  for (std::size_t k = 0; k < 4 * quads; ++k)
+    for (int l = 0; l < lane_count; ++l) CHECK(lanes[k][l] == static_cast<double>(100 * j[l]) + static_cast<double>(k));
+}
+
+TEST_CASE("numbers of the lanes that are near are written without gaps", "[tensor][lanes]") {
+  const Lanes r2 = {0.5, 2.0, 0.1, 1.0, 0.9, 0.99, 3.0, 0.0};
+  std::int32_t out[2 * lane_count] = {};
+  CHECK(write_where_less(r2, 1.0, 0xffu, 40, out) == 5);
+  CHECK(std::vector<std::int32_t>(out, out + 5) == std::vector<std::int32_t>{40, 42, 44, 45, 47});
+  CHECK(write_where_less(r2, 1.0, 0x07u & ~0x01u, 40, out) == 1);
+  CHECK(out[0] == 42);
 }
 
 TEST_CASE("products and sums over lanes are those of Eigen", "[tensor][lanes]") {
