@@ -1,7 +1,6 @@
 #include "harness/bench.hpp"
 
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
 #include <omp.h>
 
 #include <cmath>
@@ -150,7 +149,7 @@ int run_benchmarks(const BenchOptions& options) {
     for (const int dim : {2, 3})
       for (long particles = 10000; particles <= options.most_particles; particles *= 10)
         for (const int t : threads)
-          benchmark::RegisterBenchmark(fmt::format("{}/{}d/{}/threads:{}", name, dim, particles, t).c_str(),
+          benchmark::RegisterBenchmark((name + "/" + std::to_string(dim) + "d/" + std::to_string(particles) + "/threads:" + std::to_string(t)).c_str(),
                                        [=, what = what](benchmark::State& state) {
                                          dim == 2 ? measure<2>(state, what, particles, t) : measure<3>(state, what, particles, t);
                                        })
@@ -158,8 +157,8 @@ int run_benchmarks(const BenchOptions& options) {
               ->MeasureProcessCPUTime()
               ->Unit(benchmark::kMillisecond);
 
-  std::vector<std::string> words{"furrow bench", fmt::format("--benchmark_min_time={}", options.least_time),
-                                 fmt::format("--benchmark_repetitions={}", options.repetitions)};
+  std::vector<std::string> words{"furrow bench", "--benchmark_min_time=" + std::to_string(options.least_time),
+                                 "--benchmark_repetitions=" + std::to_string(options.repetitions)};
   if (options.json) words.emplace_back("--benchmark_format=json");
   if (!options.filter.empty()) words.push_back("--benchmark_filter=" + options.filter);
   if (!options.file.empty()) words.insert(words.end(), {"--benchmark_out_format=json", "--benchmark_out=" + options.file});
@@ -171,7 +170,7 @@ int run_benchmarks(const BenchOptions& options) {
   benchmark::Shutdown();
   if (ran == 0)
     throw InputError("bench", 0, "--filter",
-                     fmt::format("found '{}', which matches no benchmark, expected part of a name such as whole_step/3d/10000", options.filter));
+                     "found '" + options.filter + "', which matches no benchmark, expected part of a name such as whole_step/3d/10000");
   return 0;
 }
 

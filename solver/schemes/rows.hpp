@@ -58,7 +58,7 @@ double* put(const T& element, double* out) {
 }
 
 template <class T, std::size_t N>
-typename RowEntry<T>::lanes take(const std::array<Lanes, N>& row, std::size_t first) {
+[[gnu::always_inline]] inline typename RowEntry<T>::lanes take(const std::array<Lanes, N>& row, std::size_t first) {
   if constexpr (std::is_same_v<T, double>) {
     return row[first];
   } else {
@@ -90,13 +90,13 @@ class Rows {
     }
   }
 
-  std::array<Lanes, 4 * quads> load(const std::int32_t* j) const { return load_rows<quads>(first_, j); }
+  [[gnu::always_inline]] std::array<Lanes, 4 * quads> load(const std::int32_t* j) const { return load_rows<quads>(first_, j); }
 
   static LaneVector<Dim> position(const std::array<Lanes, 4 * quads>& row) { return detail::take<Vector<Dim>>(row, 0); }
   /// f(elements...): the arrays' elements of a loaded row, in the order of reads().
   template <class F>
-  static void apply(const std::array<Lanes, 4 * quads>& row, F&& f) {
-    [&]<std::size_t... k>(std::index_sequence<k...>) {
+  [[gnu::always_inline]] static void apply(const std::array<Lanes, 4 * quads>& row, F&& f) {
+    [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
       f(detail::take<T>(row, offset(k))...);
     }(std::index_sequence_for<T...>{});
   }

@@ -218,7 +218,7 @@ def test_output_folder_of_somebody_else():
 
 
 def test_help_of_every_command_has_an_example():
-    for command in ("list", "run", "matrix", "report"):
+    for command in ("list", "run", "matrix", "report", "bench"):
         ended = run(FURROW, command, "--help")
         assert ended.returncode == 0
         assert "Example: ./furrow " + command in ended.stdout

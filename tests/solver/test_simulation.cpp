@@ -186,6 +186,46 @@ TEST_CASE("hourglass control holds together what began as one piece, and leaves 
   CHECK(body.particles.acceleration[first][0] < -1.0);
 }
 
+TEST_CASE("a held face does not move and no work is done on it", "[simulation]") {
+  Simulation<2> simulation = struck_block();
+  Body<2>& body = simulation.body;
+  body.walls.clear();
+  body.images = {};
+  body.scheme.xsph = 0.0;
+  body.scheme.shepard_every = 0;
+  body.scheme.artificial_stress.reset();
+  body.scheme.viscosity.reset();
+  // The block is 12 columns of 9; its left face is held, and everything right of it moves.
+  HeldFace face{"left", {}};
+  for (int j = 0; j < 9; ++j) face.columns.push_back({j, 9 + j});
+  body.loads.faces.push_back(face);
+  for (std::size_t i = 0; i < body.particles.size(); ++i) body.particles.velocity[i] = {0.0, 2.0 * body.particles.position[i][0]};
+  simulation.start();
+  for (int k = 0; k < 200; ++k) simulation.step(1.0);
+  double at_face = 0.0, beyond = 0.0;
+  for (const auto& [outer, inner] : face.columns) {
+    const Vector<2> v_1 = body.particles.velocity[body.index_of(outer)], v_2 = body.particles.velocity[body.index_of(inner)];
+    at_face = std::max(at_face, (1.5 * v_1 - 0.5 * v_2).norm());
+    beyond = std::max(beyond, v_2.norm());
+  }
+  CHECK(at_face < 1e-12);
+  CHECK(beyond > 1e-3);
+  CHECK(std::abs(simulation.energy_imbalance()) < 1e-3);
+}
+
+TEST_CASE("a body that flies without deforming keeps its neighbours", "[simulation]") {
+  Simulation<2> simulation = struck_block();
+  Body<2>& body = simulation.body;
+  body.walls.clear();
+  body.images = {};
+  for (auto& v : body.particles.velocity) v = {30.0, -20.0};
+  simulation.start();
+  const Vector<2> before = body.particles.position[0];
+  for (int k = 0; k < 100; ++k) simulation.step(1.0);
+  CHECK((body.particles.position[0] - before).norm() > 0.02);   // far beyond the skin
+  CHECK(body.builds() == 1);
+}
+
 TEST_CASE("a run that goes wrong says when, where and in which field", "[simulation]") {
   SECTION("a particle leaves the domain") {
     Simulation<2> simulation = struck_block();

@@ -39,19 +39,18 @@ Deflection deflection_at_rest(Run& run, const Strip& strip, const Scheme& scheme
   const double dx = run.resolution().spacing, L = strip.L;
   const int across = cells(strip.t, dx, "thickness"), along = cells(L, dx, "length");
 
-  // Geometry and clamp: columns that fill a support are held, and `along` columns are free; the last one is L from the last held.
+  // Geometry and clamp: the face at x = 0 is held.
   Simulation<2> simulation;
   simulation.body = elastic_body(run, strip.material, scheme);
   Body<2>& body = simulation.body;
-  const int held = static_cast<int>(std::ceil(support(scheme.kernel) * body.scheme.smoothing_ratio));
-  body.add(block(held + along, across, dx, {-held * dx, -0.5 * strip.t}));
-  PrescribedMotion<2> rest{"clamp", {}, [](double) { return Vector<2>(Vector<2>::Zero()); }};
-  for (int i = 0; i < held * across; ++i) rest.ids.push_back(i);
-  body.loads.motions.push_back(rest);
+  body.add(block(along, across, dx, {0.0, -0.5 * strip.t}));
+  HeldFace clamp{"clamp", {}};
+  for (int j = 0; j < across; ++j) clamp.columns.push_back({j, across + j});
+  body.loads.faces.push_back(clamp);
 
-  // Load: shared by the last column.
+  // Load: shared by the last column, whose centre lies half a spacing before the end.
   AppliedForce<2> load{"tip load", {}, [P = strip.P](double) { return Vector<2>(0.0, -P); }};
-  for (int j = 0; j < across; ++j) load.ids.push_back((held + along - 1) * across + j);
+  for (int j = 0; j < across; ++j) load.ids.push_back((along - 1) * across + j);
   body.loads.forces.push_back(load);
 
   // Damping: 0.7 of the critical one for the first bending mode, with which a strip twice too soft is just critical. The mode
@@ -62,14 +61,14 @@ Deflection deflection_at_rest(Run& run, const Strip& strip, const Scheme& scheme
   simulation.watch.low = {-L, -L};
   simulation.watch.high = {2.0 * L, L};
 
-  const std::int32_t tip = (held + along - 1) * across + across / 2;
+  const std::int32_t tip = (along - 1) * across + across / 2;
   const double y_0 = body.particles.position[static_cast<std::size_t>(tip)][1];
   DynamicRun<2> dynamic(run, simulation);
   dynamic.probe({"tip_deflection", "u_y", "m", "deflection of the last column"},
                 [tip, y_0](const Simulation<2>& s) { return s.body.particles.position[s.body.index_of(tip)][1] - y_0; });
   dynamic.until(12.0 / omega, 200, 2);
   exercise(run, scheme);
-  run.exercises("boundaries/prescribed_motion");
+  run.exercises("boundaries/held_face");
   run.exercises("boundaries/applied_force");
 
   const std::vector<double>& u = dynamic.column("tip_deflection");

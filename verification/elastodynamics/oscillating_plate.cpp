@@ -69,18 +69,34 @@ Problem oscillating_plate(const Parameters& input) {
     simulation.watch.low = {-2.0 * clamp, -L};
     simulation.watch.high = {2.0 * L, L};
 
-    // Probe: the middle of the free end.
+    // Probes: the middle of the free end, and the share of the mode in the deflection, in which higher modes cancel.
     const std::int32_t tip = (held + along - 1) * across + across / 2;
     const double y_0 = body.particles.position[static_cast<std::size_t>(tip)][1];
     DynamicRun<2> dynamic(run, simulation);
     dynamic.probe({"tip_deflection", "u_y", "m", "deflection of the middle of the free end"},
                   [tip, y_0](const Simulation<2>& s) { return s.body.particles.position[s.body.index_of(tip)][1] - y_0; });
+    std::vector<double> mode(body.particles.size(), 0.0), height(body.particles.size(), 0.0);
+    for (int i = 0; i < plate; ++i) {
+      const Vector<2>& x = body.particles.position[static_cast<std::size_t>(i)];
+      mode[static_cast<std::size_t>(i)] = x[0] > 0.0 ? F(x[0]) / F(L) : 0.0;
+      height[static_cast<std::size_t>(i)] = x[1];
+    }
+    dynamic.probe({"mode_deflection", "a", "m", "share of the first mode in the deflection"}, [mode, height](const Simulation<2>& s) {
+      double projection = 0.0, norm = 0.0;
+      for (std::size_t i = 0; i < s.body.particles.size(); ++i) {
+        const auto id = static_cast<std::size_t>(s.body.particles.id[i]);
+        projection += mode[id] * (s.body.particles.position[i][1] - height[id]);
+        norm += mode[id] * mode[id];
+      }
+      return projection / norm;
+    });
     dynamic.until(end, 400, 4);
     exercise(run, scheme);
     run.exercises(by_faces ? "boundaries/held_face" : "boundaries/prescribed_motion");
 
     const std::vector<double>& u = dynamic.column("tip_deflection");
-    const std::vector<double> t_0 = zeros(dynamic.column("time"), u);
+    const std::vector<double> t_0 = zeros(dynamic.column("time"), dynamic.column("mode_deflection"));
+    if (t_0.size() < 2) throw std::runtime_error("the plate has not swung back by the end: the period is longer than twice end_time");
     const auto half_periods = static_cast<double>(t_0.size() - 1);
     run.measure("period", 2.0 * (t_0.back() - t_0.front()) / half_periods, "s");
     run.measure("amplitude", *std::max_element(u.begin(), u.end()) / L);
