@@ -204,7 +204,7 @@ STATES = {
     "oscillatory": "oscillatory: the error goes up and down, so that no order can be claimed",
     "diverging": "diverging: the error grows as the spacing is refined",
     "round-off": "round-off: the error is as small as the arithmetic allows, so that no order can be claimed",
-    "undetermined": "undetermined: too few spacings or too much scatter for a statement",
+    "undetermined": "undetermined: too few spacings, or errors that do not lie on one power of the spacing",
 }
 
 
