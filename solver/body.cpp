@@ -70,6 +70,40 @@ void Body<Dim>::add(const std::vector<Vector<Dim>>& positions, const Vector<Dim>
 }
 
 template <int Dim>
+void Body<Dim>::hold_face(std::string name, const std::vector<std::vector<std::int32_t>>& columns) {
+  // The load of a uniform tension, from a copy: finding neighbours sorts particles.
+  Body<Dim> pulled = *this;
+  pulled.refresh_neighbours(true);
+  Particles<Dim>& p = pulled.particles;
+  p.stress.assign(p.size(), Tensor::Identity());
+  momentum<Dim>(pulled.stencil(), p, p.velocity, pulled.correction(0.0), {}, pulled.workspace_, p.acceleration, pulled.power_);
+
+  HeldFace face{std::move(name), {}};
+  for (const std::vector<std::int32_t>& ids : columns) {
+    if (ids.size() < 2) throw std::invalid_argument("a held face needs columns of two particles or more");
+    const auto at = [&](std::size_t k) { return pulled.index_of(ids[k]); };
+    const Vector<Dim> inwards = (p.position[at(1)] - p.position[at(0)]).normalized();
+    std::vector<double> w, d;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      w.push_back(p.mass[at(k)] * p.acceleration[at(k)].dot(inwards));
+      d.push_back(0.5 * spacing + (p.position[at(k)] - p.position[at(0)]).dot(inwards));
+      sum += w.back();
+    }
+    // w/sum + a + b d with sum 1 and moment 0 about the face.
+    double n = 0.0, d1 = 0.0, d2 = 0.0, moment = 0.0;
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      w[k] /= sum;
+      n += 1.0, d1 += d[k], d2 += d[k] * d[k], moment += w[k] * d[k];
+    }
+    const double b = -moment * n / (n * d2 - d1 * d1), a = -b * d1 / n;
+    for (std::size_t k = 0; k < w.size(); ++k) w[k] += a + b * d[k];
+    face.columns.push_back({ids, w});
+  }
+  loads.faces.push_back(face);
+}
+
+template <int Dim>
 void Body<Dim>::find_neighbours() {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
@@ -343,11 +377,18 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
     }
   }
   for (const HeldFace& face : loads.faces)
-    for (const auto& [outer, inner] : face.columns) {
-      const std::size_t i = index_of(outer), j = index_of(inner);
-      const Vector<Dim> lambda = (1.5 * p.acceleration[i] - 0.5 * p.acceleration[j]) / (2.25 / p.mass[i] + 0.25 / p.mass[j]);
-      p.acceleration[i] -= 1.5 / p.mass[i] * lambda;
-      p.acceleration[j] += 0.5 / p.mass[j] * lambda;
+    for (const HeldFace::Column& column : face.columns) {
+      Vector<Dim> at_face = Vector<Dim>::Zero();
+      double compliance = 0.0;
+      for (std::size_t k = 0; k < column.ids.size(); ++k) {
+        const std::size_t i = index_of(column.ids[k]);
+        at_face += column.weights[k] * p.acceleration[i];
+        compliance += column.weights[k] * column.weights[k] / p.mass[i];
+      }
+      for (std::size_t k = 0; k < column.ids.size(); ++k) {
+        const std::size_t i = index_of(column.ids[k]);
+        p.acceleration[i] -= column.weights[k] / (p.mass[i] * compliance) * at_face;
+      }
     }
   reactions_.assign(loads.motions.size(), Vector<Dim>::Zero());
   for (std::size_t k = 0; k < loads.motions.size(); ++k)

@@ -37,6 +37,12 @@ class Body {
   /// counting.
   void add(const std::vector<Vector<Dim>>& positions, const Vector<Dim>& velocity = Vector<Dim>::Zero());
 
+  /// Holds a face: `columns` are ids of two or more particles each, from the face inwards, the first half a spacing behind it. Call
+  /// before anything has moved. Weights are those with which the momentum sum puts the load of a uniform stress on the particles
+  /// behind a free face, so that a stressed body hangs in its clamp without a layer that is out of balance; they are brought
+  /// by the least change to read linear velocities exactly.
+  void hold_face(std::string name, const std::vector<std::vector<std::int32_t>>& columns);
+
   /// Sorts particles and finds neighbours when something has moved further than the skin allows, and brings images up to date.
   /// `force` does so in any case.
   void refresh_neighbours(bool force = false);

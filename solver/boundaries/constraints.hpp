@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -19,12 +18,16 @@ struct PrescribedMotion {
   std::function<Vector<Dim>(double time)> velocity;   ///< m/s
 };
 
-/// A face of a body that is held: half a spacing outside the outermost particles, where the velocity read across from the two
-/// outermost, 3/2 v_1 - 1/2 v_2, stays zero. Held particles hold the body half a spacing further out or in, an error of first
-/// order in the spacing; this one is of second order. The force that holds acts in the same proportion and does no work.
+/// A face of a body that is held: v_f = sum_k w_k v_k, the velocity of the face read from each column of particles behind it, stays
+/// zero. Held particles would hold the body half a spacing further out or in. The force that holds acts on the column in
+/// proportion to the weights and does no work. Body::hold_face finds the weights.
 struct HeldFace {
+  struct Column {
+    std::vector<std::int32_t> ids;   ///< from the face inwards; no particle in two columns
+    std::vector<double> weights;     ///< of sum 1, and with no moment about the face
+  };
   std::string name;
-  std::vector<std::array<std::int32_t, 2>> columns;   ///< ids, the outermost first; no particle in two of them
+  std::vector<Column> columns;
 };
 
 /// A force shared by particles, by id, in proportion to their mass: a traction on a tip, a load on a patch.
@@ -44,7 +47,7 @@ struct Loads {
   double damping_end = std::numeric_limits<double>::infinity();   ///< s; from then on there is no damping
   std::vector<PrescribedMotion<Dim>> motions;
   std::vector<AppliedForce<Dim>> forces;
-  std::vector<HeldFace> faces;                        ///< velocities must obey them from the start
+  std::vector<HeldFace> faces;                        ///< by Body::hold_face; velocities must obey them from the start
 
   Vector<Dim> gravity_at(double time) const { return gravity_factor ? Vector<Dim>(gravity_factor(time) * gravity) : gravity; }
   double damping_at(double time) const { return time < damping_end ? damping : 0.0; }

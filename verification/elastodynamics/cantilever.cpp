@@ -22,8 +22,8 @@ struct Strip {
     const double E = 9.0 * K * G / (3.0 * K + G), nu = E / (2.0 * G) - 1.0;
     return E / (1.0 - nu * nu) * t * t * t / 12.0;
   }
-  /// Deflection of beam theory with shear under the load.
-  double deflection() const { return P * L * L * L / (3.0 * stiffness()) + 1.2 * P * L / (material.shear_modulus * t); }
+  /// Deflection of beam theory with shear under the load at x.
+  double deflection(double x) const { return P * x * x * x / (3.0 * stiffness()) + 1.2 * P * x / (material.shear_modulus * t); }
   double first_frequency() const {
     return std::pow(1.875104068711961 / L, 2) * std::sqrt(stiffness() / (material.reference_density * t));
   }
@@ -34,7 +34,7 @@ struct Deflection {
 };
 
 /// The deflection of the strip's last column at the run's resolution; energies and deflection over time as figures of the run.
-/// Motion is prescribed and the load acts at the centres of particles: the beam reaches from the last held column to the last one.
+/// The load acts at the centres of the last column, half a spacing before the end.
 Deflection deflection_at_rest(Run& run, const Strip& strip, const Scheme& scheme) {
   const double dx = run.resolution().spacing, L = strip.L;
   const int across = cells(strip.t, dx, "thickness"), along = cells(L, dx, "length");
@@ -44,9 +44,11 @@ Deflection deflection_at_rest(Run& run, const Strip& strip, const Scheme& scheme
   simulation.body = elastic_body(run, strip.material, scheme);
   Body<2>& body = simulation.body;
   body.add(block(along, across, dx, {0.0, -0.5 * strip.t}));
-  HeldFace clamp{"clamp", {}};
-  for (int j = 0; j < across; ++j) clamp.columns.push_back({j, across + j});
-  body.loads.faces.push_back(clamp);
+  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(across));
+  const int deep = std::min(along / 2, 2 * static_cast<int>(std::ceil(support(scheme.kernel) * body.scheme.smoothing_ratio)));
+  for (int i = 0; i < deep; ++i)
+    for (int j = 0; j < across; ++j) rows[static_cast<std::size_t>(j)].push_back(i * across + j);
+  body.hold_face("clamp", rows);
 
   // Load: shared by the last column, whose centre lies half a spacing before the end.
   AppliedForce<2> load{"tip load", {}, [P = strip.P](double) { return Vector<2>(0.0, -P); }};
@@ -74,7 +76,7 @@ Deflection deflection_at_rest(Run& run, const Strip& strip, const Scheme& scheme
   const std::vector<double>& u = dynamic.column("tip_deflection");
   energy_figure(run, dynamic);
   history_figure(run, dynamic, "deflection", "Deflection of the last column", {"tip_deflection"}, {"u_y", "m"});
-  return {-u.back(), strip.deflection(), std::abs(u.back() - u[u.size() - 11]) / std::abs(u.back()),
+  return {-u.back(), strip.deflection(L - 0.5 * dx), std::abs(u.back() - u[u.size() - 11]) / std::abs(u.back()),
           dynamic.energy_imbalance()};
 }
 

@@ -39,13 +39,16 @@ Problem oscillating_plate(const Parameters& input) {
     // Boundaries: both faces of the part behind x = 0 are held; or, as the literature has it, layers that do not move fill a support
     // above and below it.
     if (by_faces) {
-      HeldFace faces{"clamp", {}};
+      std::vector<std::vector<std::int32_t>> columns;
       for (int i = 0; i < held; ++i) {
-        const int bottom = i * across, top = bottom + across - 1;
-        faces.columns.push_back({bottom, bottom + 1});
-        faces.columns.push_back({top, top - 1});
+        std::vector<std::int32_t> from_bottom, from_top;
+        for (int k = 0; k < across / 2; ++k) {
+          from_bottom.push_back(i * across + k);
+          from_top.push_back((i + 1) * across - 1 - k);
+        }
+        columns.insert(columns.end(), {from_bottom, from_top});
       }
-      body.loads.faces.push_back(faces);
+      body.hold_face("clamp", columns);
     } else {
       const int layers = static_cast<int>(std::ceil(support(scheme.kernel) * body.scheme.smoothing_ratio));
       body.add(block(held, layers, dx, {-clamp, 0.5 * H}));
