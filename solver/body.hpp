@@ -40,7 +40,8 @@ class Body {
   /// Holds a face: `columns` are ids of two or more particles each, from the face inwards, the first half a spacing behind it. Call
   /// before anything has moved. Weights are those with which the momentum sum puts the load of a uniform stress on the particles
   /// behind a free face, so that a stressed body hangs in its clamp without a layer that is out of balance; they are brought
-  /// by the least change to read linear velocities exactly.
+  /// by the least change to read linear velocities exactly. Columns of two are the sharpest, with 3/2 and -1/2; a body that is pulled
+  /// or bent out of its clamp wants columns as deep as twice the support.
   void hold_face(std::string name, const std::vector<std::vector<std::int32_t>>& columns);
 
   /// Sorts particles and finds neighbours when something has moved further than the skin allows, and brings images up to date.

@@ -41,12 +41,8 @@ Problem oscillating_plate(const Parameters& input) {
     if (by_faces) {
       std::vector<std::vector<std::int32_t>> columns;
       for (int i = 0; i < held; ++i) {
-        std::vector<std::int32_t> from_bottom, from_top;
-        for (int k = 0; k < across / 2; ++k) {
-          from_bottom.push_back(i * across + k);
-          from_top.push_back((i + 1) * across - 1 - k);
-        }
-        columns.insert(columns.end(), {from_bottom, from_top});
+        const int bottom = i * across, top = bottom + across - 1;
+        columns.insert(columns.end(), {{bottom, bottom + 1}, {top, top - 1}});
       }
       body.hold_face("clamp", columns);
     } else {
