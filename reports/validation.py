@@ -100,7 +100,8 @@ def figures(all_groups):
     drawn = []
     for quantity, members in by_quantity.items():
         points = [p for g in members for p in g.points]
-        low, high = 0.9 * min(min(p.measured, p.predicted) for p in points), 1.05 * max(max(p.measured, p.predicted) for p in points)
+        low = 0.9 * min(min(p.measured, p.predicted) for p in points)
+        high = 1.05 * max(max(p.measured, p.predicted) for p in points)
         unit, u = points[0].unit, max(g.experiment for g in members)
         series = [{"label": g.material, "role": "computed", "x": [p.measured for p in g.points],
                    "y": [p.predicted for p in g.points]} for g in members]

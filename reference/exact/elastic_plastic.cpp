@@ -85,6 +85,8 @@ double expanding_ring_speed(const ExpandingRing& ring, double r) {
   return std::sqrt(std::max(0.0, ring.velocity * ring.velocity - 2.0 * work / ring.density));
 }
 
-double limit_moment(double yield_stress, double thickness) { return yield_stress * thickness * thickness / (2.0 * std::sqrt(3.0)); }
+double limit_moment(double yield_stress, double thickness) {
+  return yield_stress * thickness * thickness / (2.0 * std::sqrt(3.0));
+}
 
 }  // namespace furrow::exact

@@ -18,8 +18,8 @@ struct PistonState {
   double front_speed, density, pressure, stress, velocity, energy;
 };
 
-/// Uniaxial strain ahead of a piston that moves with `velocity` into metal at rest (Udaykumar et al. 2003; Lieberman et al. 2019):
-/// an elastic precursor to rho_Y = rho_0 exp(Y/2G), where the deviator 4/3 G ln(rho/rho_0) reaches 2Y/3, and a plastic shock to
+/// Uniaxial strain ahead of a piston that moves with `velocity` into metal at rest (Udaykumar et al. 2003; Lieberman et al.
+/// 2019): an elastic precursor to rho_Y = rho_0 exp(Y/2G), where the deviator 4/3 G ln(rho/rho_0) reaches 2Y/3, and a plastic shock to
 /// the piston's velocity. Both obey the jump conditions of mass, momentum and energy. Front speeds in the frame of the metal at
 /// rest. Throws std::domain_error when the piston is too slow to make the metal yield or so fast that the shock overtakes the
 /// precursor.
@@ -36,8 +36,8 @@ double collapsing_cylinder_speed(double density, double yield_stress, double inn
 double outer_radius(double inner, double outer, double r);
 
 /// Thin ring that expands with v_0 in plane strain, perfectly plastic. Per volume its hoop stress takes the work w(e) of the hoop
-/// strain e = ln(r/r_0): E' e^2/2 up to e_y = Y'/E', Y' (e - e_y/2) beyond, with Y' = 2Y/sqrt(3) and E' = E/(1 - nu^2) (infinite: a
-/// rigid-plastic ring); rho (v_0^2 - v^2)/2 = w. Radius at which it stops, and speed at radius r (0 beyond).
+/// strain e = ln(r/r_0): E' e^2/2 up to e_y = Y'/E', Y' (e - e_y/2) beyond, with Y' = 2Y/sqrt(3) and E' = E/(1 - nu^2) (infinite:
+/// a rigid-plastic ring); rho (v_0^2 - v^2)/2 = w. Radius at which it stops, and speed at radius r (0 beyond).
 struct ExpandingRing {
   double density, yield_stress, hoop_modulus;   ///< rho, Y, E'
   double radius, velocity;                      ///< r_0, v_0

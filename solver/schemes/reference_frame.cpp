@@ -17,8 +17,8 @@ double reference_speed(const Matrix<Dim>& F, double c) {
 
 template <int Dim>
 void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p, std::span<const double> volume,
-                         std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi, double zeta,
-                         std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
+                         std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi,
+                         double zeta, std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
   const double h = reference.smoothing_length;
   const auto read = reads(p.position, velocity, p.deformation_gradient, gradient_rate, p.density, p.sound_speed, volume);
   for_each_particle(reference, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
@@ -38,7 +38,8 @@ void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p,
                            (pair.r * pair.r * (dot(x_ij, x_ij) + 1e-300));
       const Lanes spring = chi * weight * c * dot(delta, x_ij), damper = zeta * h * weight * dot(d, x_ij);
       const Lanes approach = dot(x_ij, v_ij);
-      const Lanes spring_in = pair.r > 1e-140 ? spring : Lanes{}, damper_in = pair.r > 1e-140 ? damper : Lanes{};   // not the padding
+      const Lanes spring_in = pair.r > 1e-140 ? spring : Lanes{};   // not the padding with the particle itself
+      const Lanes damper_in = pair.r > 1e-140 ? damper : Lanes{};
       a += (spring_in + damper_in) * x_ij;
       sprung += spring_in * approach;
       damped += damper_in * approach;

@@ -29,11 +29,11 @@ double reference_speed(const Matrix<Dim>& F, double c);
 ///   delta_ij = x_ij - (F_i + F_j)/2 X_ij,   d_ij = v_ij - (F'_i + F'_j)/2 X_ij,   rho c^2 of the pair's mean,
 ///   a_i += -1/m_i sum_j V_i V_j W(X_ij)/X_ij^2 [chi rho c^2 delta_ij.n + zeta rho c h d_ij.n] n
 /// in volumes, distances and h of the reference configuration: the spring of Ganzenmueller (2015) with chi, and a damper of the
-/// same form with zeta. Central forces; nothing for displacements or velocities that are quadratic in X. The spring's power goes to
-/// the artificial part, the damper's to the viscous.
+/// same form with zeta. Central forces; nothing for displacements or velocities that are quadratic in X. The spring's power goes
+/// to the artificial part, the damper's to the viscous.
 template <int Dim>
 void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& particles, std::span<const double> volume,
-                         std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi, double zeta,
-                         std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power);
+                         std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi,
+                         double zeta, std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power);
 
 }  // namespace furrow

@@ -41,7 +41,7 @@ def test_scatter_of_the_experiment_is_taken_off(run):
 def test_the_ladder_separates_the_spacing_from_the_model(run):
     steps = {"kind": "value", "spacing": [0.002, 0.001, 0.0005], "value": [24.0, 22.0, 21.5], "order": 2.0, "order_stderr": None,
              "state": "asymptotic", "gci": 0.01, "extrapolated": 21.0}
-    folder = run(comparison("taylor-bar/rod-0", 21.5, 20.0, ladder=steps), comparison("taylor-bar/rod-1", 21.5, 20.0, ladder=steps))
+    folder = run(*(comparison(f"taylor-bar/rod-{i}", 21.5, 20.0, ladder=steps) for i in range(2)))
     group, = validation.groups(results.load(folder))
     assert group.bias == pytest.approx(0.075)
     assert group.bias_at_limit == pytest.approx(0.05)
@@ -62,7 +62,7 @@ def test_the_page_shows_every_comparison_and_the_index_leads_to_it(run):
     folder = run(comparison("taylor-bar/rod-0", 21.0), comparison("taylor-bar/rod-1", 19.0))
     report = build(folder).parent
     page = Page((report / "validation.html").read_text(encoding="utf-8"))
-    assert [v for tag, key, v in page.links if v.startswith("cases/")] == ["cases/taylor-bar/rod-0.html", "cases/taylor-bar/rod-1.html"]
+    assert [v for _, _, v in page.links if v.startswith("cases/")] == [f"cases/taylor-bar/rod-{i}.html" for i in range(2)]
     assert (report / "figures/validation/final_length.svg").exists()
     assert any(v == "validation.html" for _, _, v in Page((report / "index.html").read_text(encoding="utf-8")).links)
 

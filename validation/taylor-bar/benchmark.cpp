@@ -142,7 +142,8 @@ Problem printed_forms(const Parameters& input) {
       return outcome.length;
     };
     for (std::size_t i = 0; i < impacts.size(); ++i) {
-      const double length = add(printed_variants[i].name, printed_variants[i].difference, impacts[i], run.resolution().smoothing_ratio);
+      const Variant& v = printed_variants[i];
+      const double length = add(v.name, v.difference, impacts[i], run.resolution().smoothing_ratio);
       if (i == 0) {
         right_length = length;
         run.measure("length_right", length, "m");

@@ -53,7 +53,8 @@ Outcome collide(Run& run, const Impact& impact) {
   const double latest = 1.5 * impact.rod.length / impact.speed + 20.0 * transit;
   DynamicRun<3> dynamic(run, simulation);
   const double layer = cells.layer;
-  dynamic.probe({"length", "L", "m", "length of the rod"}, [layer](const Simulation<3>& s) { return shape_of(s.body, layer).length; });
+  dynamic.probe({"length", "L", "m", "length of the rod"},
+                [layer](const Simulation<3>& s) { return shape_of(s.body, layer).length; });
   dynamic.probe({"foot_radius", "R_f", "m", "greatest radius"},
                 [layer](const Simulation<3>& s) { return shape_of(s.body, layer).foot_radius; });
   const double kinetic = 0.5 * std::visit([](const auto& m) { return m.initial_state().density; }, impact.material) *

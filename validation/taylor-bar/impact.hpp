@@ -31,7 +31,7 @@ struct Outcome {
   double failed_share = 0.0;                         ///< particles that have lost their strength
 };
 
-/// Runs until the rod is at rest: over the last transit, 3 L/c_L, plastic work has grown by less than `rest_growth` of the kinetic
+/// Runs until the rod is at rest: over the last transit, 3 L/c_L, plastic work has grown by less than a thousandth of the kinetic
 /// energy before impact. Throws std::runtime_error when it does not come to rest.
 Outcome collide(Run& run, const Impact& impact);
 

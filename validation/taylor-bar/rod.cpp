@@ -43,7 +43,8 @@ Section squares(double radius, double dx) {
     for (int j = 0; j < n; ++j)
       if (Eigen::Vector2d x = dx * Eigen::Vector2d(i + 0.5, j + 0.5); x.norm() <= radius) section.centre.push_back(x);
   if (section.centre.empty()) throw std::invalid_argument("the spacing is wider than the rod");
-  section.area.assign(section.centre.size(), 0.25 * std::numbers::pi * radius * radius / static_cast<double>(section.centre.size()));
+  const auto count = static_cast<double>(section.centre.size());
+  section.area.assign(section.centre.size(), 0.25 * std::numbers::pi * radius * radius / count);
   return section;
 }
 
@@ -56,7 +57,8 @@ Arrangement arrangement_by_name(const std::string& name) {
 }
 
 Cells quarter_rod(const Rod& rod, double spacing, Arrangement arrangement) {
-  const Section section = arrangement == Arrangement::rings ? rings(0.5 * rod.diameter, spacing) : squares(0.5 * rod.diameter, spacing);
+  const double radius = 0.5 * rod.diameter;
+  const Section section = arrangement == Arrangement::rings ? rings(radius, spacing) : squares(radius, spacing);
   const long layers = std::max(1L, std::lround(rod.length / spacing));
   Cells cells;
   cells.layer = rod.length / static_cast<double>(layers);

@@ -52,7 +52,8 @@ Shot read_shot(const Parameters& input, const ReferenceData& set, double speed) 
     if (std::abs(speeds[k] - speed) < 1e-9 * speed) row = k;
     known += fmt::format("{}{:g}", k ? ", " : "", speeds[k]);
   }
-  if (row == speeds.size()) input.fail("shot", fmt::format("found {:g} m/s, expected a shot of set {}: {}", speed, set.set, known));
+  if (row == speeds.size())
+    input.fail("shot", fmt::format("found {:g} m/s, expected a shot of set {}: {}", speed, set.set, known));
   const auto at = [&](std::string_view column) { return set.column(column)[row]; };
 
   Shot shot;
@@ -73,13 +74,13 @@ std::vector<std::string> warnings(const Parameters& input, std::string_view key,
       input.fail(key, fmt::format("found a rod of {:g} K, expected less than the {:g} K at which its material melts", T,
                                   s.melting_temperature));
     if (T < s.reference_temperature - 5.0)
-      found.push_back(fmt::format("Warning: the rod is at {:g} K before the impact, colder than the {:g} K at which the law begins; the "
-                                  "law takes it to be no harder than there.",
+      found.push_back(fmt::format("Warning: the rod is at {:g} K before the impact, colder than the {:g} K at which the law begins; "
+                                  "the law takes it to be no harder than there.",
                                   T, s.reference_temperature));
     const double pressure = law.eos.reference_density * impact.speed * impact.speed;
     if (pressure > 6.0 * (s.A + s.B))
-      found.push_back(fmt::format("Warning: rho v^2 = {:.3g} GPa is {:.1f} times A + B: the foot is eroded, and its strains are far "
-                                  "beyond those at which the law was measured.",
+      found.push_back(fmt::format("Warning: rho v^2 = {:.3g} GPa is {:.1f} times A + B: the foot is eroded, and its strains are "
+                                  "far beyond those at which the law was measured.",
                                   pressure / 1e9, pressure / (s.A + s.B)));
   });
   return found;
@@ -89,12 +90,13 @@ std::vector<std::string> warnings_after(const Impact& impact, const Outcome& out
   std::vector<std::string> found;
   with_johnson_cook(impact.material, [&](const auto& law) {
     if (outcome.highest_temperature >= law.strength.melting_temperature)
-      found.push_back(fmt::format("Warning: the hottest particle reaches the melting temperature of {:g} K and keeps no strength.",
+      found.push_back(fmt::format("Warning: the hottest particle reaches the melting temperature of {:g} K and keeps no "
+                                  "strength.",
                                   law.strength.melting_temperature));
   });
   if (outcome.strained_share > 0.05)
-    found.push_back(fmt::format("Warning: {:.0f} % of the rod is strained by more than 1, beyond the strains at which laws of this kind "
-                                "are measured.",
+    found.push_back(fmt::format("Warning: {:.0f} % of the rod is strained by more than 1, beyond the strains at which laws of this "
+                                "kind are measured.",
                                 100.0 * outcome.strained_share));
   return found;
 }

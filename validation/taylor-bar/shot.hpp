@@ -25,13 +25,13 @@ namespace uncertainty {
 inline constexpr double final_length = 0.01, foot_diameter = 0.025, diameter_at_fifth = 0.015, undeformed_length = 0.1;
 }
 
-/// The shot of this impact speed (in m/s, as in the table) of a set, with material, scheme and arrangement of the case. A set is a
-/// folder beside the case file, or else of reference/data. Throws InputError.
+/// The shot of this impact speed (in m/s, as in the table) of a set, with material, scheme and arrangement of the case. A set is
+/// a folder beside the case file, or else of reference/data. Throws InputError.
 Shot read_shot(const Parameters& input, const ReferenceData& set, double speed);
 ReferenceData read_set(const Parameters& input, const std::string& name);
 
-/// Material, scheme and arrangement of a case, common to all problems of the family: `material`, `fracture` (default false: rods of
-/// these shots did not break), `scheme`, `arrangement`.
+/// Material, scheme and arrangement of a case, common to all problems of the family: `material`, `fracture` (default false: rods
+/// of these shots did not break), `scheme`, `arrangement`.
 Impact read_impact(const Parameters& input);
 
 /// Sentences for the report on where the law is asked for more than it was measured for; empty when it is not.

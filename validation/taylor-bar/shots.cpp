@@ -120,8 +120,8 @@ Problem shot(const Parameters& input) {
       run.measure("profile_linf", e.linf);
       const double enclosed = enclosed_volume(shot);
       if (std::abs(enclosed - 1.0) > 0.05)
-        run.note(fmt::format("The digitised profile encloses {:.0f} % of the volume that the rod had: a metal keeps its volume, so "
-                             "diameters of this rod are not to be trusted by more than half of what is missing.",
+        run.note(fmt::format("The digitised profile encloses {:.0f} % of the volume that the rod had: a metal keeps its volume, "
+                             "so diameters of this rod are not to be trusted by more than half of what is missing.",
                              100.0 * enclosed));
     }
     run.measure("greatest_plastic_strain", outcome.greatest_plastic_strain);
@@ -132,7 +132,8 @@ Problem shot(const Parameters& input) {
     table.row({std::string("length"), 1e3 * m.final_length, 1e3 * p.final_length});
     table.row({std::string("foot diameter"), 1e3 * m.foot_diameter, 1e3 * p.foot_diameter});
     table.row({std::string("diameter at 0.2 of the first length"), 1e3 * m.diameter_at_fifth, 1e3 * p.diameter_at_fifth});
-    table.row({std::string("undeformed length (radius grown by less than 0.5 %)"), 1e3 * m.undeformed_length, 1e3 * p.undeformed_length});
+    table.row({std::string("undeformed length (radius grown by less than 0.5 %)"), 1e3 * m.undeformed_length,
+               1e3 * p.undeformed_length});
     profile_figure(run, shot, outcome.shape);
   };
 }
@@ -156,8 +157,8 @@ Problem shot_series(const Parameters& input) {
 
   return [=](Run& run) {
     Table& table = run.table("shots", "Every shot of the series",
-                             {{"set"}, {"impact speed", "m/s"}, {"temperature", "K"}, {"measured length", "mm"}, {"computed length", "mm"},
-                              {"relative error", "1"}});
+                             {{"set"}, {"impact speed", "m/s"}, {"temperature", "K"}, {"measured length", "mm"},
+                              {"computed length", "mm"}, {"relative error", "1"}});
     double sum = 0.0, bias = 0.0, worst = 0.0;
     for (std::size_t k = 0; k < shots.size(); ++k) {
       const Shot& shot = shots[k].shot;
@@ -170,7 +171,8 @@ Problem shot_series(const Parameters& input) {
       sum += std::abs(e);
       bias += e;
       worst = std::max(worst, std::abs(e));
-      table.row({shots[k].set, shot.impact.speed, *shot.impact.temperature, 1e3 * shot.measured.final_length, 1e3 * outcome.length, e});
+      table.row({shots[k].set, shot.impact.speed, *shot.impact.temperature, 1e3 * shot.measured.final_length, 1e3 * outcome.length,
+                 e});
     }
     exercise(run, shots.front().shot.impact.scheme);
     const double n = static_cast<double>(shots.size());

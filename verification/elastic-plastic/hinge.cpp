@@ -62,7 +62,8 @@ Problem plastic_hinge(const Parameters& input) {
     for (int i = (along - held) * across; i < along * across; ++i) {
       const Vector<2> X = p.position[static_cast<std::size_t>(i)];
       body.loads.motions.push_back({"end", {i}, [=](double time) -> Vector<2> {
-                                      return (place(X, phi_at(time + instant)) - place(X, phi_at(time - instant))) / (2.0 * instant);
+                                      const double before = phi_at(time - instant), after = phi_at(time + instant);
+                                      return (place(X, after) - place(X, before)) / (2.0 * instant);
                                     }});
     }
     // Critical damping of the first bending mode of the free length.
@@ -82,7 +83,7 @@ Problem plastic_hinge(const Parameters& input) {
       }
       return M;
     });
-    dynamic.probe({"curvature", "kappa/kappa_y", "1", "mean curvature over that at which a fully plastic stress is first reached"},
+    dynamic.probe({"curvature", "kappa/kappa_y", "1", "mean curvature over that at which fibres first reach 2Y/sqrt(3)"},
                   [=](const Simulation<2>& s) { return phi_at(s.time()) / (l * kappa_y); });
     dynamic.until(end, 400, 4);
     exercise(run, scheme);

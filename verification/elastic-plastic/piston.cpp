@@ -86,7 +86,9 @@ Problem piston(const Parameters& input) {
     std::vector<Column> half;
     DynamicRun<2> dynamic(run, simulation);
     const double elastic_level = 0.5 * truth.elastic.velocity, plastic_level = 0.5 * (truth.elastic.velocity + u_p);
-    const auto columns = [=](const Simulation<2>& s) { return columns_of(s.body, static_cast<std::size_t>(count), dx, u_p, s.time()); };
+    const auto columns = [=](const Simulation<2>& s) {
+      return columns_of(s.body, static_cast<std::size_t>(count), dx, u_p, s.time());
+    };
     dynamic.probe({"elastic_front", "x_el", "m", "where the velocity reaches half of the precursor's"},
                   [=](const Simulation<2>& s) { return front(columns(s), elastic_level); });
     dynamic.probe({"plastic_front", "x_pl", "m", "where the velocity is midway between the two plateaus"},

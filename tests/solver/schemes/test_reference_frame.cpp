@@ -85,7 +85,9 @@ TEST_CASE("what a quadratic motion does is nothing to hourglass control in the r
   Body<2>& body = simulation.body;
   simulation.start();
   Particles<2>& p = body.particles;
-  const auto bent = [](const Vector<2>& X) { return Vector<2>(X[0] + 0.7 * X[0] * X[1], X[1] - 0.4 * X[0] * X[0] + 0.2 * X[1] * X[1]); };
+  const auto bent = [](const Vector<2>& X) {
+    return Vector<2>(X[0] + 0.7 * X[0] * X[1], X[1] - 0.4 * X[0] * X[0] + 0.2 * X[1] * X[1]);
+  };
   std::vector<Matrix<2>> rate;
   std::vector<Vector<2>> velocity;
   std::vector<double> volume;
