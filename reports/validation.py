@@ -21,7 +21,7 @@ class Point:
     uncertainty: float           # standard, of the measured value
     unit: str
     grid: float | None = None    # relative numerical uncertainty, where the ladder states one
-    limit: float | None = None   # value at vanishing spacing, where the ladder has one
+    limit: float | None = None   # value at vanishing spacing: extrapolated, else the finest of the ladder
 
 
 @dataclass
@@ -55,9 +55,9 @@ class Group:
 
     @property
     def bias_at_limit(self):
-        """Bias of the values at vanishing spacing, less one: the model's own; None where a point has no such value."""
+        """Bias of the points with a ladder at vanishing spacing, less one: the model's own; None where there is none."""
         logs = self._logs(lambda p: p.limit)
-        if not logs or len(logs) < len(self.points):
+        if not logs:
             return None
         return math.exp(sum(logs) / len(logs) + 0.5 * (self.scatter or 0.0) ** 2) - 1.0
 
@@ -83,7 +83,8 @@ def groups(run):
                 continue
             point = Point(case, reference, value, metric["reference"].get("standard_uncertainty") or 0.0, metric["unit"])
             for steps in ladder.ladders_of(metric)[:1]:
-                point.grid, point.limit = steps.get("gci"), steps.get("extrapolated")
+                point.grid = steps.get("gci")
+                point.limit = steps.get("extrapolated") or (value if point.grid is not None else None)
             found.setdefault((metric["name"], material), Group(metric["name"], material)).points.append(point)
     return [found[key] for key in sorted(found)]
 

@@ -48,6 +48,15 @@ def test_the_ladder_separates_the_spacing_from_the_model(run):
     assert group.grid == pytest.approx(0.01)
 
 
+def test_a_ladder_without_a_limit_counts_with_its_finest_value(run):
+    steps = {"kind": "value", "spacing": [0.002, 0.001, 0.0005], "value": [20.9, 21.1, 21.0], "order": None, "order_stderr": None,
+             "state": "oscillatory", "gci": 0.02, "extrapolated": None}
+    folder = run(comparison("taylor-bar/rod-0", 21.0, 20.0, ladder=steps), comparison("taylor-bar/rod-1", 30.0, 20.0))
+    group, = validation.groups(results.load(folder))
+    assert group.grid == pytest.approx(0.02)
+    assert group.bias_at_limit == pytest.approx(1.05 * math.exp(0.5 * group.scatter**2) - 1.0)
+
+
 def test_materials_and_quantities_are_kept_apart_and_others_left_out(run):
     other = comparison("taylor-bar/other", 21.0, material="6061-t6")
     exact = result("kernel/exact", metrics=[metric("integral", 1.0, [0.9, 1.1], norm="relative", reference=1.0)])
