@@ -1,19 +1,37 @@
 #include "solver/schemes/quadratic_gradient.hpp"
 
-#include <Eigen/Cholesky>
-
 namespace furrow {
 namespace {
 
-/// Rows that pick the gradient out of the coefficients of a fit with the first `terms` terms; false where it is not determined.
+/// Rows that pick the gradient out of the coefficients of a fit with the first `Terms` terms: the first Dim rows of M^-1, by
+/// M = L D L^T. False where the fit is not determined. Written out: a general solver spends its time on finding out how small M is.
 template <int Terms, int Dim, class Moments>
 bool fit(const Moments& M, double h, QuadraticGradient<Dim>& C) {
-  using Square = Eigen::Matrix<double, Terms, Terms>;
-  const Eigen::LDLT<Square> factors(M.template topLeftCorner<Terms, Terms>());
-  const auto pivots = factors.vectorD();
-  if (!(pivots.minCoeff() > 1e-8 * pivots.maxCoeff())) return false;
+  const double largest = M.diagonal().template head<Terms>().maxCoeff();
+  double L[Terms][Terms], D[Terms];
+  for (int j = 0; j < Terms; ++j) {
+    D[j] = M(j, j);
+    for (int k = 0; k < j; ++k) D[j] -= L[j][k] * L[j][k] * D[k];
+    if (!(D[j] > 1e-8 * largest)) return false;
+    for (int i = j + 1; i < Terms; ++i) {
+      L[i][j] = M(i, j);
+      for (int k = 0; k < j; ++k) L[i][j] -= L[i][k] * L[j][k] * D[k];
+      L[i][j] /= D[j];
+    }
+  }
   C.setZero();
-  C.template leftCols<Terms>() = factors.solve(Square::Identity()).template topRows<Dim>() / h;
+  for (int row = 0; row < Dim; ++row) {
+    double x[Terms];
+    for (int i = 0; i < Terms; ++i) {
+      x[i] = i == row ? 1.0 : 0.0;
+      for (int k = row; k < i; ++k) x[i] -= L[i][k] * x[k];
+    }
+    for (int i = Terms - 1; i >= 0; --i) {
+      x[i] /= D[i];
+      for (int k = i + 1; k < Terms; ++k) x[i] -= L[k][i] * x[k];
+      C(row, i) = x[i] / h;
+    }
+  }
   return true;
 }
 
