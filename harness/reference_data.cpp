@@ -29,7 +29,8 @@ std::vector<std::string> fields(const std::string& line) {
 const std::vector<double>& ReferenceData::column(std::string_view name) const {
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (columns[c] == name) return values[c];
-  throw std::out_of_range(fmt::format("reference data {} has no column \"{}\"; there are: {}", set, name, fmt::join(columns, ", ")));
+  throw std::out_of_range("reference data " + set + " has no column \"" + std::string(name) + "\"; there are: " +
+                          fmt::to_string(fmt::join(columns, ", ")));
 }
 
 ReferenceData read_reference_data(std::string_view set, const std::filesystem::path& folder) {
@@ -63,14 +64,14 @@ ReferenceData read_reference_data(std::string_view set, const std::filesystem::p
     if (line.empty()) continue;
     const std::vector<std::string> row = fields(line);
     if (row.size() != data.columns.size())
-      throw InputError(file, number, "", fmt::format("found {} fields, expected {}", row.size(), data.columns.size()));
+      throw InputError(file, number, "", "found " + std::to_string(row.size()) + " fields, expected " + std::to_string(data.columns.size()));
     for (std::size_t c = 0; c < row.size(); ++c) {
       double value = std::numeric_limits<double>::quiet_NaN();
       const char* const end = row[c].data() + row[c].size();
       if (!row[c].empty()) {
         const auto [stop, error] = std::from_chars(row[c].data(), end, value);
         if (error != std::errc{} || stop != end)
-          throw InputError(file, number, data.columns[c], fmt::format("found \"{}\", expected a number", row[c]));
+          throw InputError(file, number, data.columns[c], "found \"" + row[c] + "\", expected a number");
       }
       data.values[c].push_back(value * factor[c]);
     }
