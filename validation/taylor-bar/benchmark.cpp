@@ -32,6 +32,7 @@ double value_at(const std::vector<double>& time, const std::vector<double>& valu
 Problem benchmark(const Parameters& input) {
   const Impact impact = read_rod(input);
   const double early = input.quantity("early_time", dimension::time, range::positive);
+  const double late = input.quantity("reference_time", dimension::time, range::positive);
   return [=](Run& run) {
     const Outcome outcome = collide(run, impact);
     exercise(run, impact.scheme);
@@ -39,6 +40,7 @@ Problem benchmark(const Parameters& input) {
     run.measure("final_length", outcome.length, "m");
     run.measure("foot_radius", outcome.foot_radius, "m");
     run.measure("early_foot_radius", value_at(outcome.time, outcome.foot_radius_at, early), "m");
+    run.measure("reference_length", value_at(outcome.time, outcome.length_at, late), "m");
     run.measure("rest_time", outcome.rest_time, "s");
     run.measure("viscous_share", outcome.viscous_share);
     run.measure("greatest_plastic_strain", outcome.greatest_plastic_strain);
