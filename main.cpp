@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
       furrow::material_point_family(),
       furrow::elastodynamics_family(),
       furrow::elastic_plastic_family(),
+      furrow::earth_pressure_family(),
       furrow::taylor_bar_family(),
       furrow::column_collapse_family(),
   };

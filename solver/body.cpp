@@ -135,6 +135,8 @@ void Body<Dim>::find_neighbours() {
   p.reference_position.resize(extended);
   p.deformation_gradient.resize(extended);
   volume_.resize(extended);
+  if (!layers.empty() && (scheme.correction == Correction::quadratic || in_reference_frame()))
+    throw std::invalid_argument("boundary layers are there for the correction none or linear in the current frame");
   in_layer_.assign(n, 0);
   for (const BoundaryLayer<Dim>& layer : layers)
     for (const std::int32_t id : layer.ids) in_layer_[index_of(id)] = 1;
@@ -328,6 +330,7 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
     strain_power_ = ordered_sum<1>(p.size(), [&](std::size_t i, auto& sum) {
       sum[0] += p.volume(i) * p.stress[i].template topLeftCorner<Dim, Dim>().cwiseProduct(velocity_gradient_[i]).sum();
     })[0];
+  for (const Matrix<Dim>& L : velocity_gradient_) compression = std::max(compression, -L.trace());
   return compression;
 }
 
@@ -473,18 +476,31 @@ template <int Dim>
 void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
   Particles<Dim>& p = particles;
   layer_forces_.assign(layers.size(), Vector<Dim>::Zero());
-  layer_power_ = 0.0;
-  for (std::size_t l = 0; l < layers.size(); ++l)
+  layer_power_ = layer_viscous_power_ = 0.0;
+  if (layers.empty()) return;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>();
+    if (scheme.correction == Correction::linear) plane_stress_[i] *= linear_[i].transpose();
+  }
+  if (!images.empty()) images.fill_tensors(std::span(plane_stress_));
+  strained_.assign(velocity.begin(), velocity.end());
+  const LayerSurroundings<Dim> around = layer_surroundings();
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    if (layers[l].ids.empty()) continue;
+    const Vector<Dim> V = own_velocity_[l].front();
+    if (layers[l].slip != Slip::free) extrapolate_velocity<Dim>(around, layers[l], layers[l].slip, V, strained_);
+    exchange_.resize(layers[l].ids.size());
+    layer_exchange<Dim>(around, layers[l], V, volume_, plane_stress_, strained_, exchange_);
     for (std::size_t k = 0; k < layers[l].ids.size(); ++k) {
       const std::size_t i = index_of(layers[l].ids[k]);
       const Vector<Dim> force = p.mass[i] * p.acceleration[i];
       layer_forces_[l] += force;
-      layer_power_ += force.dot(velocity[i] - own_velocity_[l][k]);
+      layer_power_ += exchange_[k].power;
+      // The sum over pairs took the lent velocity for a motion; the viscous force did work on V only.
+      layer_viscous_power_ += (force - exchange_[k].stress_force).dot(velocity[i] - V);
       p.acceleration[i].setZero();
     }
-  if (layers.empty()) return;
-  for (std::size_t i = 0; i < p.size(); ++i) layer_power_ += p.mass[i] * power_[i].stress;
-  layer_power_ -= strain_power_;
+  }
 }
 
 template <int Dim>

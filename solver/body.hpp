@@ -71,10 +71,11 @@ class Body {
   double external_power() const { return external_power_; }
   double damping_power() const { return damping_power_; }
   const std::vector<Vector<Dim>>& reactions() const { return reactions_; }
-  /// Force of the body on each boundary layer, N, and the power that goes into the soil that layers stand for: what all pairs take
-  /// out of the motion less what the body's own stress does on its own strain. Both as of the last accelerate().
+  /// Force of the body on each boundary layer, N; the power that goes into the soil that layers stand for; and what the powers of
+  /// artificial terms (power()) have too little because of the velocities lent to layers. All as of the last accelerate().
   const std::vector<Vector<Dim>>& layer_forces() const { return layer_forces_; }
   double layer_power() const { return layer_power_; }
+  double layer_viscous_power() const { return layer_viscous_power_; }
   double friction_power() const { return friction_power_; }   ///< W, taken out of the motion by friction on walls
   bool is_in_layer(std::size_t i) const { return !in_layer_.empty() && in_layer_[i] != 0; }
   std::int64_t builds() const { return builds_; }
@@ -119,7 +120,9 @@ class Body {
   std::vector<std::vector<Vector<Dim>>> own_velocity_;       ///< of each layer's particles, while another is lent to them
   std::vector<Vector<Dim>> layer_forces_;
   double external_power_ = 0.0, damping_power_ = 0.0, layer_power_ = 0.0;
-  double friction_power_ = 0.0, strain_power_ = 0.0;
+  double friction_power_ = 0.0, layer_viscous_power_ = 0.0;
+  std::vector<Vector<Dim>> strained_;
+  std::vector<LayerExchange<Dim>> exchange_;
   std::int64_t builds_ = 0;
 };
 

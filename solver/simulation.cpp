@@ -94,6 +94,19 @@ typename Simulation<Dim>::Powers Simulation<Dim>::powers() const {
     sum[1] += p.mass[i] * body.power()[i].artificial;
   });
   return {viscous, artificial, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power()};
+  Powers sum{0.0, 0.0, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power(),
+             body.layer_viscous_power()};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    sum.viscous += p.mass[i] * body.power()[i].viscous;
+    sum.artificial += p.mass[i] * body.power()[i].artificial;
+  }
+  return sum;
+}
+
+template <int Dim>
+double Simulation<Dim>::stored(std::size_t i) const {
+  if (body.is_in_layer(i)) return 0.0;
+  return body.particles.mass[i] * std::visit([&](const auto& law) { return law.stored_energy(body.state(i)); }, body.material);
 }
 
 template <int Dim>
@@ -106,6 +119,7 @@ void Simulation<Dim>::account(double dt) {
   energy_.damping += 0.5 * dt * (before.damping + powers_.damping);
   energy_.external += 0.5 * dt * (before.external + powers_.external);
   energy_.contact += 0.5 * dt * (before.friction + powers_.friction);
+  energy_.viscous += 0.5 * dt * (before.layer_viscous + powers_.layer_viscous);
   energy_.layer += 0.5 * dt * (before.layer + powers_.layer);
   if (!body.scheme.energy) return;
   for_all(p.size(), [&](std::size_t i) { p.internal_energy[i] += dt * body.power()[i].viscous; });

@@ -53,7 +53,7 @@ class Simulation {
   double angular_momentum() const;   ///< about z through the origin, kg m^2/s
 
   struct Powers {
-    double viscous = 0.0, artificial = 0.0, damping = 0.0, external = 0.0, layer = 0.0, friction = 0.0;   ///< W, at the end of the last step
+    double viscous = 0.0, artificial = 0.0, damping = 0.0, external = 0.0, layer = 0.0, friction = 0.0, layer_viscous = 0.0;   ///< W, at the end of the last step
   };
   /// Everything but the particles that a restart needs to go on bit for bit.
   struct Clock {

@@ -10,5 +10,6 @@ Family operators_family();   ///< verification/operators: SPH sums on given part
 Family material_point_family();   ///< verification/material-point: one point of material along a prescribed path
 Family elastodynamics_family();   ///< verification/elastodynamics: elastic bodies that move
 Family elastic_plastic_family();   ///< verification/elastic-plastic: bodies that yield, closed forms
+Family earth_pressure_family();   ///< verification/earth-pressure: soil at rest and at its limit
 
 }  // namespace furrow

@@ -83,11 +83,43 @@ void extrapolate_stress(const LayerSurroundings<Dim>& around, const BoundaryLaye
   });
 }
 
+template <int Dim>
+void layer_exchange(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer, const Vector<Dim>& wall_velocity,
+                    std::span<const double> volume, std::span<const Matrix<Dim>> A, std::span<const Vector<Dim>> velocity,
+                    std::span<LayerExchange<Dim>> out) {
+  std::visit(
+      [&](auto kernel) {
+        const double h = around.smoothing_length;
+        const auto n = static_cast<std::int64_t>(layer.ids.size());
+#pragma omp parallel for schedule(static)
+        for (std::int64_t k = 0; k < n; ++k) {
+          const auto w = static_cast<std::size_t>(around.index_of_id[static_cast<std::size_t>(layer.ids[static_cast<std::size_t>(k)])]);
+          LayerExchange<Dim> sum;
+          for (const std::int32_t at : around.neighbours->row(w)) {
+            const auto j = static_cast<std::size_t>(at);
+            const Vector<Dim> x_wj = around.box.displacement(around.position[w], around.position[j]);
+            const double r = x_wj.norm();
+            if (!(r > 0.0 && r < decltype(kernel)::support * h)) continue;
+            const Vector<Dim> grad_w = volume[w] * volume[j] * derivative<decltype(kernel), Dim>(r, h) / r * x_wj;
+            const Vector<Dim> f_wj = (A[w] + A[j]) * grad_w;
+            sum.stress_force += f_wj;
+            if (around.soil_volume[j] > 0.0)
+              sum.power += f_wj.dot(velocity[j] - wall_velocity) + (velocity[w] - velocity[j]).dot(A[j] * grad_w);
+          }
+          out[static_cast<std::size_t>(k)] = sum;
+        }
+      },
+      around.kernel);
+}
+
 #define FURROW_INSTANTIATE(Dim)                                                                                              \
   template void extrapolate_velocity<Dim>(const LayerSurroundings<Dim>&, const BoundaryLayer<Dim>&, Slip,                    \
                                           const Vector<Dim>&, std::span<Vector<Dim>>);                                       \
   template void extrapolate_stress<Dim>(const LayerSurroundings<Dim>&, const BoundaryLayer<Dim>&, const Vector<Dim>&,        \
-                                        std::span<const Matrix<Dim>>, std::span<Tensor>);
+                                        std::span<const Matrix<Dim>>, std::span<Tensor>);                                    \
+  template void layer_exchange<Dim>(const LayerSurroundings<Dim>&, const BoundaryLayer<Dim>&, const Vector<Dim>&,            \
+                                    std::span<const double>, std::span<const Matrix<Dim>>, std::span<const Vector<Dim>>,     \
+                                    std::span<LayerExchange<Dim>>);
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)
 #undef FURROW_INSTANTIATE

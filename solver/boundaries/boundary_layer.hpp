@@ -56,4 +56,20 @@ template <int Dim>
 void extrapolate_stress(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer, const Vector<Dim>& weight,
                         std::span<const Matrix<Dim>> stress, std::span<Tensor> layer_stress);
 
+/// What the pairs of one layer's particle do.
+template <int Dim>
+struct LayerExchange {
+  Vector<Dim> stress_force = Vector<Dim>::Zero();   ///< on it, from the stress term with all its neighbours, N
+  double power = 0.0;                               ///< into the soil that it stands for, W
+};
+
+/// Sums V_w V_j (A_w + A_j) grad_w W over all neighbours, and over those that are soil the power that the pair neither gives to
+/// motion nor to the strain of the body nor takes from the wall's own motion V:
+///   f_jw.(V - v_j) - V_j V_w (v_w - v_j).A_j grad_j W,   f_jw = V_j V_w (A_j + A_w) grad_j W,
+/// v_w the velocity that the strain of the soil saw. `A` is the stress times the transposed correction of gradients.
+template <int Dim>
+void layer_exchange(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer, const Vector<Dim>& wall_velocity,
+                    std::span<const double> volume, std::span<const Matrix<Dim>> A, std::span<const Vector<Dim>> velocity,
+                    std::span<LayerExchange<Dim>> out);
+
 }  // namespace furrow

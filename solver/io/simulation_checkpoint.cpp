@@ -32,6 +32,7 @@ void for_each_number(Clock& c, Visit&& visit) {
   visit("power.external", c.powers.external);
   visit("power.layer", c.powers.layer);
   visit("power.friction", c.powers.friction);
+  visit("power.layer_viscous", c.powers.layer_viscous);
 }
 
 }  // namespace

@@ -109,11 +109,11 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
   simulation.watch.low = {-0.5 * dx, -0.5 * dx};
   simulation.watch.high = {2.0 * c.floor_length, 10.0 * c.height + c.gate_speed * c.end_time};
 
-  // Probes: what moves, how fast, how far. The crest is the highest particle at the wall.
+  // Probes: what moves, how fast, how far. The crest is the upper particle at the face.
   std::int32_t crest = 0;
   for (std::size_t i = 0; i < body.particles.size(); ++i) {
     const Vector<2>&x = body.particles.position[i], &best = body.particles.position[static_cast<std::size_t>(crest)];
-    if (x[1] > best[1] || (x[1] == best[1] && x[0] < best[0])) crest = static_cast<std::int32_t>(i);
+    if (x[1] > best[1] || (x[1] == best[1] && x[0] > best[0])) crest = static_cast<std::int32_t>(i);
   }
   const double crest_start = body.particles.position[static_cast<std::size_t>(crest)][1];
   DynamicRun<2> dynamic(run, simulation);
@@ -131,7 +131,7 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
   });
   dynamic.probe({"front", "x_f", "m", "farthest particle that is no single one"},
                 [](const Simulation<2>& s) { return front_of(s.body); });
-  dynamic.probe({"crest_settlement", "u_c", "m", "settlement of the highest particle at the wall"},
+  dynamic.probe({"crest_settlement", "u_c", "m", "settlement of the upper particle at the face"},
                 [crest, crest_start](const Simulation<2>& s) { return crest_start - s.body.particles.position[s.body.index_of(crest)][1]; });
   dynamic.probe({"surface_at_30", "x_30", "m", "where the surface falls through 0.3 of the initial height"},
                 [&c, window](const Simulation<2>& s) { return position_at(surface_now(s.body, window), 0.3 * c.height); });

@@ -13,6 +13,7 @@
 
 namespace furrow::column_collapse_cases {
 
+Problem sensitivity(const Parameters& input);       ///< the same, one numerical choice changed at a time
 Problem rods(const Parameters& input);              ///< rods of Bui and of Nguyen against the independent surface
 Problem granular_column(const Parameters& input);   ///< run-out against the laws of Lube and of Lajeunesse
 Problem cohesive_column(const Parameters& input);   ///< a column of clay that slumps
@@ -35,7 +36,7 @@ struct Collapsed {
   Surface surface;                  ///< at the end
   double rest_time;                 ///< s, from which on less than 1 % of the mass moves faster than the speed of rest
   double greatest_speed, time_of_greatest_speed;   ///< of any particle
-  double crest_settlement;          ///< m, of the particle that was highest at the wall
+  double crest_settlement;          ///< m, of the upper particle at the face
   double front;                     ///< m, farthest particle with at least four neighbours of soil within two spacings
   double late_motion;               ///< way of the centre of mass over the last tenth of the time, over the initial height
   double volume_change;             ///< of the sum of m/rho, relative
@@ -44,6 +45,13 @@ struct Collapsed {
 
 /// Runs the collapse, with its figures and the modules it puts to work.
 Collapsed collapse(Run& run, const SoilColumn& column, double window);
+
+/// The independent surface (reference/data) on its two finest grids, and with low dissipation.
+struct ReferenceSurfaces {
+  Surface fine, coarse, lively;
+};
+inline constexpr double reference_window = 0.01;   ///< m: its windows
+ReferenceSurfaces read_reference_surfaces(const Parameters& input);
 
 /// Adds a figure of surfaces.
 void surface_figure(Run& run, const Surface& computed, const std::vector<std::pair<std::string, Surface>>& references);
