@@ -244,7 +244,7 @@ CorrectionView<Dim> Body<Dim>::correction(double ahead) {
 
 template <int Dim>
 void Body<Dim>::make_correction() {
-  if (scheme.correction == Correction::linear) kernel_correction<Dim>(stencil(), volume_, linear_);
+  if (scheme.correction == Correction::linear) kernel_correction<Dim>(stencil(), volume_, linear_, scheme.least_span);
   if constexpr (Dim == 2)
     if (scheme.correction == Correction::quadratic) quadratic_correction<Dim>(stencil(), volume_, quadratic_);
 }

@@ -25,19 +25,21 @@ void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, st
 template <int Dim>
 void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out) {
   for_each_particle(stencil, reads(volume), [&](std::size_t i, auto&& neighbours, auto) {
+void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out, double least_span) {
+  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> linear;
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {
       linear.add_outer(pair.x_ij, (-V_j) * pair.grad);
     });
     const Matrix<Dim> M = sum(linear);
     const double isotropic = std::pow(M.trace() / Dim, Dim);
-    out[i] = M.determinant() > 1e-4 * isotropic ? Matrix<Dim>(M.inverse()) : Matrix<Dim>(Matrix<Dim>::Identity());
+    out[i] = M.determinant() > least_span * isotropic ? Matrix<Dim>(M.inverse()) : Matrix<Dim>(Matrix<Dim>::Identity());
   });
 }
 
 #define FURROW_INSTANTIATE(Dim)                                                                              \
   template void kernel_sums<Dim>(const Stencil<Dim>&, std::span<const double>, std::span<KernelSums<Dim>>);  \
-  template void kernel_correction<Dim>(const Stencil<Dim>&, std::span<const double>, std::span<Matrix<Dim>>);
+  template void kernel_correction<Dim>(const Stencil<Dim>&, std::span<const double>, std::span<Matrix<Dim>>, double);
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)
 #undef FURROW_INSTANTIATE

@@ -17,8 +17,9 @@ void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, st
 
 /// B_i = [sum_j V_j (x_j - x_i) (x) grad_i W_ij]^-1, so that a plain sum times B_i is exact for linear fields. A particle
 /// whose neighbours do not span space keeps the unit matrix: its determinant, over that of the isotropic matrix of the same
-/// trace, is below 1e-4. How few or far the neighbours are does not matter, only whether they lie on a line or in a plane.
+/// trace, is below `least_span`. How few or far the neighbours are does not matter, only whether they lie on a line or in a plane.
 template <int Dim>
-void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out);
+void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out,
+                       double least_span = 1e-4);
 
 }  // namespace furrow

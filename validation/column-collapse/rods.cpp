@@ -40,7 +40,7 @@ Problem rods(const Parameters& input) {
       const double x = position_at(limit, height);
       run.measure(metric, position_at(heap.surface, height), "m", {x, uncertainty * x});
     }
-    run.measure("toe", position_at(heap.surface, 0.002), "m", {position_at(fine, 0.002), 0.05 * position_at(fine, 0.002)});
+    run.measure("toe", farthest_at(heap.surface, 0.002), "m", {farthest_at(fine, 0.002), 0.05 * farthest_at(fine, 0.002)});
     run.measure("surface_error", distance(heap.surface, limit, position_at(limit, 0.01)) / column.height);
     run.measure("wall_height", heap.surface.h.front(), "m");
     run.measure("rest_time", heap.rest_time, "s");

@@ -64,7 +64,7 @@ Problem sensitivity(const Parameters& input) {
         most = std::max(most, x);
         nearest = std::min(nearest, error);
         table.row({v.knob, v.setting, 1e3 * position_at(heap.surface, 0.05), 1e3 * x, 1e3 * position_at(heap.surface, 0.01),
-                   1e3 * position_at(heap.surface, 0.002), heap.rest_time, error, heap.energy_imbalance});
+                   1e3 * farthest_at(heap.surface, 0.002), heap.rest_time, error, heap.energy_imbalance});
         figure.add({.label = v.knob + " " + v.setting, .x = heap.surface.x, .y = heap.surface.h});
       } catch (const Divergence& divergence) {
         table.row({v.knob, v.setting + ": " + divergence.what(), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});

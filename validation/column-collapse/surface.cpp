@@ -30,11 +30,27 @@ Surface surface_of(const std::vector<double>& centres, double volume, double spa
   return s;
 }
 
+namespace {
+
+/// Place of the fall between k and k + 1.
+double crossing(const Surface& s, std::size_t k, double height) {
+  return s.x[k] + (s.x[k + 1] - s.x[k]) * (s.h[k] - height) / (s.h[k] - s.h[k + 1]);
+}
+
+}  // namespace
+
 double position_at(const Surface& s, double height) {
+  if (s.h.empty() || s.h.front() < height) return 0.0;
+  for (std::size_t k = 0; k + 1 < s.x.size(); ++k)
+    if (s.h[k + 1] < height) return crossing(s, k, height);
+  return s.x.back();
+}
+
+double farthest_at(const Surface& s, double height) {
   if (s.h.empty()) return 0.0;
   if (s.h.back() >= height) return s.x.back();
-  for (std::size_t k = s.x.size() - 1; k > 0; --k)
-    if (s.h[k - 1] >= height) return s.x[k - 1] + (s.x[k] - s.x[k - 1]) * (s.h[k - 1] - height) / (s.h[k - 1] - s.h[k]);
+  for (std::size_t k = s.x.size() - 1; k-- > 0;)
+    if (s.h[k] >= height) return crossing(s, k, height);
   return 0.0;
 }
 

@@ -14,9 +14,12 @@ struct Surface {
 /// the wall x = 0. Each particle is a strip of width `spacing` about its centre with the volume `volume` (m^2 in plane strain).
 Surface surface_of(const std::vector<double>& centres, double volume, double spacing, double step);
 
-/// Where the surface falls through `height`, coming from the far end: linear between places. 0 where it is lower everywhere;
-/// the last place where it is not yet lower there.
+/// Where the surface of the heap at the wall first falls through `height`, linear between places: what has run ahead and lies
+/// apart is no part of the heap. 0 where it is lower everywhere; the last place where it is not yet lower there.
 double position_at(const Surface& surface, double height);
+
+/// The farthest place where anything lies as high as `height`, as above.
+double farthest_at(const Surface& surface, double height);
 
 /// Height at x, linear between places, 0 beyond the last.
 double height_at(const Surface& surface, double x);

@@ -44,6 +44,12 @@ Problem moving_wall(const Parameters& input) {
     dynamic.probe({"wall_position", "x_w", "m", "way of the wall"}, [=](const Simulation<2>& s) {
       return s.body.particles.position[s.body.index_of(wall)][0] - wall_start;
     });
+    dynamic.probe({"centre_height", "y_c", "m", "height of the soil's centre of mass"}, [](const Simulation<2>& s) {
+      double sum = 0.0, mass = 0.0;
+      for (std::size_t i = 0; i < s.body.particles.size(); ++i)
+        if (!s.body.is_in_layer(i)) sum += s.body.particles.mass[i] * s.body.particles.position[i][1], mass += s.body.particles.mass[i];
+      return sum / mass;
+    });
     dynamic.until(end, 400, 2);
     exercise_soil(run, scheme);
     run.exercises("boundaries/boundary_layer");
@@ -51,23 +57,32 @@ Problem moving_wall(const Parameters& input) {
     const exact::Cone cone{soil.law.cone.alpha, soil.law.cone.k, soil.law.cone.beta};
     const double phi = exact::plane_strain_friction(cone), c = exact::plane_strain_cohesion(cone);
     const double weight = soil.law.reference_density * g;
-    const auto limit = [=](double way) {
-      const double height = H * L / (L - way);
-      return strain < 0.0 ? exact::active_force(phi, c, weight, height) : exact::passive_force(phi, c, weight, height);
+    // The soil between walls that are L - way apart, and dilated, stands as high as twice its centre and weighs what it did.
+    const auto limit = [=](double way, double centre) {
+      const double height = 2.0 * centre, now = weight * H * L / ((L - way) * height);
+      return strain < 0.0 ? exact::active_force(phi, c, now, height) : exact::passive_force(phi, c, now, height);
     };
     // The mean over the last fifth, each instant against the force at its height.
-    const auto &force = dynamic.column("wall_force"), &way = dynamic.column("wall_position");
+    const auto &force = dynamic.column("wall_force"), &way = dynamic.column("wall_position"), &centre = dynamic.column("centre_height");
     double ratio = 0.0, samples = 0.0;
     Series computed{.label = "computed"}, reference{.label = "Rankine", .role = "reference"};
     for (std::size_t k = 0; k < force.size(); ++k) {
       computed.x.push_back(way[k]), computed.y.push_back(force[k]);
-      reference.x.push_back(way[k]), reference.y.push_back(limit(way[k]));
-      if (k + force.size() / 5 >= force.size()) ratio += force[k] / limit(way[k]), samples += 1.0;
+      reference.x.push_back(way[k]), reference.y.push_back(limit(way[k], centre[k]));
+      if (k + force.size() / 5 >= force.size()) ratio += force[k] / limit(way[k], centre[k]), samples += 1.0;
     }
     run.figure({.name = "force", .title = "Force on the wall", .x = {"way of the wall", "m"}, .y = {"force per width", "N/m"},
                 .series = {computed, reference}});
-    const double expected = limit(way.back());
+    const double expected = limit(way.back(), centre.back());
     run.measure("wall_force", ratio / samples * expected, "N/m", {expected, 0.0});
+    // Along a slip line of soil with friction phi that does not dilate as much acts less: sin(phi) cos(psi)/(1 - sin(phi) sin(psi))
+    // is the tangent of its angle (Davis 1968).
+    const double psi = std::asin(std::min(1.0, 3.0 * cone.beta / std::sqrt(1.0 - 3.0 * cone.beta * cone.beta)));
+    const double slip = std::atan(std::sin(phi) * std::cos(psi) / (1.0 - std::sin(phi) * std::sin(psi)));
+    const double on_slip_lines = strain < 0.0 ? exact::active_force(slip, c * std::tan(slip) / std::tan(phi), weight, H)
+                                              : exact::passive_force(slip, c * std::tan(slip) / std::tan(phi), weight, H);
+    const double uniform = strain < 0.0 ? exact::active_force(phi, c, weight, H) : exact::passive_force(phi, c, weight, H);
+    run.measure("between_rankine_and_slip_lines", std::abs(on_slip_lines - uniform) < 1e-9 * uniform ? 0.0 : (ratio / samples - 1.0) / (on_slip_lines / uniform - 1.0));
     run.measure("energy_imbalance", dynamic.energy_imbalance());
   };
 }

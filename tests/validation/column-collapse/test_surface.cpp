@@ -44,6 +44,13 @@ TEST_CASE("a slope is found where it is", "[column-collapse]") {
   CHECK(position_at(s, 0.05) == Approx(0.2).margin(2 * dx));
   CHECK(position_at(s, 0.01) == Approx(0.36).margin(4 * dx));
   CHECK(position_at(s, 0.2) == 0.0);
+  CHECK(farthest_at(s, 0.05) == Approx(position_at(s, 0.05)));
+}
+
+TEST_CASE("what lies apart from the heap is no part of it", "[column-collapse]") {
+  const Surface s{{0.0, 0.1, 0.2, 0.3, 0.4, 0.5}, {0.1, 0.05, 0.0, 0.0, 0.04, 0.0}};
+  CHECK(position_at(s, 0.02) == Approx(0.16));
+  CHECK(farthest_at(s, 0.02) == Approx(0.45));
 }
 
 TEST_CASE("the distance of two surfaces is the root of the mean square of their heights' difference", "[column-collapse]") {
