@@ -1,4 +1,6 @@
 // The collapse itself: set-up, run, and what is read from it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,8 @@ SoilColumn read_soil_column(const Parameters& input) {
   const Soil soil = read_soil(input);
   SoilColumn c{.soil = soil,
            .resting = {},
+           .left = input.quantity_or("left", dimension::length, 0.0),
+           .bottom = input.quantity_or("bottom", dimension::length, 0.0),
            .width = input.quantity("width", dimension::length, range::positive),
            .height = input.quantity("height", dimension::length, range::positive),
            .floor_length = input.quantity("floor_length", dimension::length, range::positive),
@@ -21,8 +25,10 @@ SoilColumn read_soil_column(const Parameters& input) {
            .rest_speed = input.quantity_or("rest_speed", dimension::velocity, 0.05, range::positive),
            .scheme = read_scheme(input)};
   c.resting = read_resting_ratio(input, soil.law, soil.law.reference_density * c.gravity * c.height);
-  if (c.floor_length < c.width)
-    input.fail("floor_length", "found a floor that is shorter than the column is wide, expected one that it can run out on");
+  if (c.left < 0.0) input.fail("left", fmt::format("found {:g} m, expected 0 or more: the soil would overlap the wall at x = 0", c.left));
+  if (c.bottom < 0.0) input.fail("bottom", fmt::format("found {:g} m, expected 0 or more: the soil would overlap the floor at y = 0", c.bottom));
+  if (c.floor_length < c.left + c.width)
+    input.fail("floor_length", "found a floor that ends under the column, expected one that it can run out on");
   return c;
 }
 
@@ -90,11 +96,11 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
   body.scheme.smoothing_ratio = run.resolution().smoothing_ratio;
   body.spacing = dx;
   body.loads.gravity = {0.0, -c.gravity};
-  body.add(rectangle({0.0, 0.0}, c.width, c.height, dx));
+  body.add(rectangle({c.left, c.bottom}, c.width, c.height, dx));
   body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {1.0, 0.0}}});
   add_flat_layer(body, "floor", {0.0, 0.0}, {c.floor_length, 0.0}, c.floor);
   if (c.gate_speed > 0.0)
-    add_flat_layer(body, "gate", {c.width, 0.0}, {c.width, c.height}, Slip::free,
+    add_flat_layer(body, "gate", {c.left + c.width, 0.0}, {c.left + c.width, c.bottom + c.height}, Slip::free,
                    [v = c.gate_speed](double) { return Vector<2>(0.0, v); });
   check_clear(body);
   // A sheet of single particles that stretches has no pressure, and would sink into the floor: its particles find a hold where
@@ -104,7 +110,7 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
   body.walls.push_back({.point = {0.0, 0.0}, .normal = {0.0, 1.0}, .stiffness = stiffness, .reach = 0.3, .friction = grip});
 
   // Start: at rest, stress geostatic.
-  set_geostatic(body, c.soil.law, c.height, c.resting);
+  set_geostatic(body, c.soil.law, c.bottom + c.height, c.resting);
   simulation.control.courant = c.courant;
   simulation.watch.low = {-0.5 * dx, -0.5 * dx};
   simulation.watch.high = {2.0 * c.floor_length, 10.0 * c.height + c.gate_speed * c.end_time};
@@ -124,10 +130,13 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
                   for (const std::size_t i : soil) moving += s.body.particles.velocity[i].norm() > v ? 1.0 : 0.0;
                   return moving / static_cast<double>(soil.size());
                 });
-  dynamic.probe({"greatest_speed", "v_max", "m/s", "speed of the fastest particle"}, [](const Simulation<2>& s) {
-    double v = 0.0;
-    for (const std::size_t i : soil_of(s.body)) v = std::max(v, s.body.particles.velocity[i].norm());
-    return v;
+  // A rag of a single particle is not what a reader calls the speed of a slide.
+  dynamic.probe({"greatest_speed", "v_max", "m/s", "speed that all but a thousandth of the mass stay below"}, [](const Simulation<2>& s) {
+    std::vector<double> speeds;
+    for (const std::size_t i : soil_of(s.body)) speeds.push_back(s.body.particles.velocity[i].norm());
+    const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(speeds.size() - 1));
+    std::nth_element(speeds.begin(), at, speeds.end());
+    return *at;
   });
   dynamic.probe({"front", "x_f", "m", "farthest particle that is no single one"},
                 [](const Simulation<2>& s) { return front_of(s.body); });

@@ -22,6 +22,7 @@ Problem cohesive_column(const Parameters& input);   ///< a column of clay that s
 struct SoilColumn {
   Soil soil;
   RestingRatio resting;
+  double left, bottom;                  ///< m: its lower left corner, (0, 0) where it leans on the wall and stands on the floor
   double width, height, floor_length;   ///< m
   Slip floor;
   double gate_speed;                    ///< m/s, upwards; 0: there is no gate from the start on
@@ -35,7 +36,7 @@ SoilColumn read_soil_column(const Parameters& input);
 struct Collapsed {
   Surface surface;                  ///< at the end
   double rest_time;                 ///< s, from which on less than 1 % of the mass moves faster than the speed of rest
-  double greatest_speed, time_of_greatest_speed;   ///< of any particle
+  double greatest_speed, time_of_greatest_speed;   ///< of all but a thousandth of the mass
   double crest_settlement;          ///< m, of the upper particle at the face
   double front;                     ///< m, farthest particle with at least four neighbours of soil within two spacings
   double late_motion;               ///< way of the centre of mass over the last tenth of the time, over the initial height
