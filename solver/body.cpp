@@ -244,7 +244,12 @@ CorrectionView<Dim> Body<Dim>::correction(double ahead) {
 
 template <int Dim>
 void Body<Dim>::make_correction() {
-  if (scheme.correction == Correction::linear) kernel_correction<Dim>(stencil(), volume_, linear_, scheme.least_span);
+  if (scheme.correction == Correction::linear) {
+    kernel_correction<Dim>(stencil(), volume_, linear_, scheme.least_span);
+    // What a layer stands for goes on behind it; that its particles end there is no reason to correct.
+    for (const BoundaryLayer<Dim>& layer : layers)
+      for (const std::int32_t id : layer.ids) linear_[index_of(id)].setIdentity();
+  }
   if constexpr (Dim == 2)
     if (scheme.correction == Correction::quadratic) quadratic_correction<Dim>(stencil(), volume_, quadratic_);
 }
