@@ -57,7 +57,8 @@ void add_flat_layer(Body<2>& body, std::string name, const Vector<2>& from, cons
                     std::function<Vector<2>(double)> velocity) {
   const double dx = body.spacing, length = (to - from).norm();
   const Vector<2> along = (to - from) / length, normal(-along[1], along[0]);
-  const int rows = static_cast<int>(std::ceil(support(body.scheme.kernel) * body.scheme.smoothing_ratio - 1e-9));
+  // One row more than the soil reaches: the gradients of the others must not be corrected for an end that is none.
+  const int rows = static_cast<int>(std::ceil(support(body.scheme.kernel) * body.scheme.smoothing_ratio - 1e-9)) + 1;
   const int columns = static_cast<int>(std::lround(length / dx));
   BoundaryLayer<2> layer{.name = std::move(name), .slip = slip, .velocity = std::move(velocity), .ids = {}, .normal = {}, .depth = {}};
   if (!layer.velocity) layer.velocity = [](double) { return Vector<2>(Vector<2>::Zero()); };

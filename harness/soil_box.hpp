@@ -35,7 +35,7 @@ RestingRatio read_resting_ratio(const Parameters& input, const DruckerPrager& la
 /// Centres of cells of edge dx that fill a rectangle; std::invalid_argument where its edges are no whole numbers of cells.
 std::vector<Vector<2>> rectangle(const Vector<2>& corner, double width, double height, double dx);
 
-/// Adds a layer of particles behind the straight surface from `from` to `to`, as thick as the kernel reaches. The soil is on the
+/// Adds a layer of particles behind the straight surface from `from` to `to`, a row thicker than the kernel reaches. The soil is on the
 /// left-hand side on the way.
 void add_flat_layer(Body<2>& body, std::string name, const Vector<2>& from, const Vector<2>& to, Slip slip,
                     std::function<Vector<2>(double)> velocity = {});

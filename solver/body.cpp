@@ -244,12 +244,7 @@ CorrectionView<Dim> Body<Dim>::correction(double ahead) {
 
 template <int Dim>
 void Body<Dim>::make_correction() {
-  if (scheme.correction == Correction::linear) {
-    kernel_correction<Dim>(stencil(), volume_, linear_, scheme.least_span);
-    // What a layer stands for goes on behind it; that its particles end there is no reason to correct.
-    for (const BoundaryLayer<Dim>& layer : layers)
-      for (const std::int32_t id : layer.ids) linear_[index_of(id)].setIdentity();
-  }
+  if (scheme.correction == Correction::linear) kernel_correction<Dim>(stencil(), volume_, linear_, scheme.least_span);
   if constexpr (Dim == 2)
     if (scheme.correction == Correction::quadratic) quadratic_correction<Dim>(stencil(), volume_, quadratic_);
 }
@@ -331,11 +326,6 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   const auto n = static_cast<std::int64_t>(p.size());
 #pragma omp parallel for schedule(static) reduction(max : compression)
   for (std::int64_t k = 0; k < n; ++k) compression = std::max(compression, -velocity_gradient_[static_cast<std::size_t>(k)].trace());
-  if (!layers.empty())
-    strain_power_ = ordered_sum<1>(p.size(), [&](std::size_t i, auto& sum) {
-      sum[0] += p.volume(i) * p.stress[i].template topLeftCorner<Dim, Dim>().cwiseProduct(velocity_gradient_[i]).sum();
-    })[0];
-  for (const Matrix<Dim>& L : velocity_gradient_) compression = std::max(compression, -L.trace());
   return compression;
 }
 

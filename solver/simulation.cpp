@@ -93,20 +93,8 @@ typename Simulation<Dim>::Powers Simulation<Dim>::powers() const {
     sum[0] += p.mass[i] * body.power()[i].viscous;
     sum[1] += p.mass[i] * body.power()[i].artificial;
   });
-  return {viscous, artificial, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power()};
-  Powers sum{0.0, 0.0, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power(),
-             body.layer_viscous_power()};
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    sum.viscous += p.mass[i] * body.power()[i].viscous;
-    sum.artificial += p.mass[i] * body.power()[i].artificial;
-  }
-  return sum;
-}
-
-template <int Dim>
-double Simulation<Dim>::stored(std::size_t i) const {
-  if (body.is_in_layer(i)) return 0.0;
-  return body.particles.mass[i] * std::visit([&](const auto& law) { return law.stored_energy(body.state(i)); }, body.material);
+  return {viscous, artificial, body.damping_power(), body.external_power(), body.layer_power(), body.friction_power(),
+          body.layer_viscous_power()};
 }
 
 template <int Dim>

@@ -23,10 +23,8 @@ void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, st
 }
 
 template <int Dim>
-void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out) {
-  for_each_particle(stencil, reads(volume), [&](std::size_t i, auto&& neighbours, auto) {
 void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out, double least_span) {
-  for_each_particle(stencil, [&](std::size_t i, auto&& neighbours, auto) {
+  for_each_particle(stencil, reads(volume), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> linear;
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {
       linear.add_outer(pair.x_ij, (-V_j) * pair.grad);

@@ -56,7 +56,7 @@ TEST_CASE("a layer lies behind its surface", "[soil-box]") {
   const Vector<2> from(0.0, 0.0), to(0.6, 0.8);
   add_flat_layer(body, "slope", from, to, Slip::none);
   const BoundaryLayer<2>& layer = body.layers.front();
-  REQUIRE(layer.ids.size() == 30);
+  REQUIRE(layer.ids.size() == 40);
   for (std::size_t k = 0; k < layer.ids.size(); ++k) {
     const Vector<2>& x = body.particles.position[static_cast<std::size_t>(layer.ids[k])];
     CHECK(layer.normal[k].isApprox(Vector<2>(-0.8, 0.6)));
