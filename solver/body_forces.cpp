@@ -1,0 +1,192 @@
+// What accelerates a body: its own stress, walls, boundary layers, loads and constraints.
+#include <tuple>
+
+#include "solver/body.hpp"
+#include "solver/particles/ordered_sum.hpp"
+#include "solver/schemes/hourglass.hpp"
+#include "solver/schemes/reference_frame.hpp"
+
+namespace furrow {
+
+template <int Dim>
+void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  const std::size_t n = p.size();
+  const Vector<Dim> gravity = loads.gravity_at(time);
+  const double damping = loads.damping_at(time);
+  if (in_reference_frame()) {
+    accelerate_in_reference(velocity);
+  } else {
+    lend_velocities(velocity, true);
+    extrapolate_stresses(gravity);
+    const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
+    momentum<Dim>(stencil(), p, velocity, correction(0.0), terms, workspace_, p.acceleration, power_);
+    if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
+    account_layers(velocity);
+    return_velocities(velocity);
+  }
+
+  wall_forces_.clear();
+  friction_power_ = 0.0;
+  for (const RigidWall<Dim>& wall : walls) {
+    const auto push = wall.push(p, spacing, velocity, p.acceleration, [this](std::size_t i) { return !is_in_layer(i); });
+    wall_forces_.push_back(push.force);
+    friction_power_ += push.friction_power;
+  }
+  external_power_ = damping_power_ = 0.0;
+  if (damping > 0.0 || !gravity.isZero(0.0))
+    std::tie(external_power_, damping_power_) = std::tuple_cat(ordered_sum<2>(n, [&](std::size_t i, auto& sum) {
+      if (is_in_layer(i)) return;
+      p.acceleration[i] += gravity - damping * velocity[i];
+      sum[0] += p.mass[i] * gravity.dot(velocity[i]);
+      sum[1] += p.mass[i] * damping * velocity[i].squaredNorm();
+    }));
+  for (std::size_t l = 0; l < layers.size(); ++l)
+    external_power_ -= layers[l].ids.empty() ? 0.0 : layer_forces_[l].dot(layers[l].velocity(time));
+  for (const AppliedForce<Dim>& load : loads.forces) {
+    double mass = 0.0;
+    for (const std::int32_t id : load.ids) mass += p.mass[index_of(id)];
+    const Vector<Dim> a = load.force(time) / mass;
+    for (const std::int32_t id : load.ids) {
+      const std::size_t i = index_of(id);
+      p.acceleration[i] += a;
+      external_power_ += p.mass[i] * a.dot(velocity[i]);
+    }
+  }
+  for (const HeldFace& face : loads.faces)
+    for (const HeldFace::Column& column : face.columns) {
+      Vector<Dim> at_face = Vector<Dim>::Zero();
+      double compliance = 0.0;
+      for (std::size_t k = 0; k < column.ids.size(); ++k) {
+        const std::size_t i = index_of(column.ids[k]);
+        at_face += column.weights[k] * p.acceleration[i];
+        compliance += column.weights[k] * column.weights[k] / p.mass[i];
+      }
+      for (std::size_t k = 0; k < column.ids.size(); ++k) {
+        const std::size_t i = index_of(column.ids[k]);
+        p.acceleration[i] -= column.weights[k] / (p.mass[i] * compliance) * at_face;
+      }
+    }
+  reactions_.assign(loads.motions.size(), Vector<Dim>::Zero());
+  for (std::size_t k = 0; k < loads.motions.size(); ++k)
+    for (const std::int32_t id : loads.motions[k].ids) {
+      const std::size_t i = index_of(id);
+      reactions_[k] += p.mass[i] * p.acceleration[i];
+      // Whatever the body does to a prescribed particle, the one who prescribes takes up.
+      external_power_ -= p.mass[i] * p.acceleration[i].dot(velocity[i]);
+      p.acceleration[i].setZero();
+    }
+}
+
+template <int Dim>
+void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  const auto n = static_cast<std::int64_t>(p.size());
+  const auto viscous_pressure = [&](std::size_t i) {
+    return scheme.bulk_viscosity
+               ? bulk_viscosity(*scheme.bulk_viscosity, velocity_gradient_[i].trace(), p.density[i], p.sound_speed[i], spacing)
+               : 0.0;
+  };
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - viscous_pressure(i) * Matrix<Dim>::Identity();
+    undeformed_.stress[i].template topLeftCorner<Dim, Dim>() =
+        first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
+  }
+  momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
+  for_all(p.size(), [&](std::size_t i) { power_[i].viscous = -viscous_pressure(i) * velocity_gradient_[i].trace() / p.density[i]; });
+  if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
+    images.fill_tensors(std::span(p.deformation_gradient));
+    images.fill_tensors(std::span(gradient_rate_));
+    reference_hourglass<Dim>(stencil(), p, volume_, velocity, gradient_rate_, scheme.hourglass, scheme.hourglass_damping,
+                             p.acceleration, power_);
+  }
+}
+
+template <int Dim>
+LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
+  const std::size_t n = particles.size();
+  soil_volume_.resize(particles.position.size());
+  for (std::size_t i = 0; i < n; ++i) soil_volume_[i] = is_in_layer(i) ? 0.0 : particles.volume(i);
+  if (!images.empty()) images.fill(soil_volume_);
+  return {scheme.kernel, smoothing_length(), box, &neighbours_, particles.position, soil_volume_, index_of_id_};
+}
+
+template <int Dim>
+void Body<Dim>::lend_velocities(std::span<Vector<Dim>> velocity, bool all_smooth) {
+  if (layers.empty()) return;
+  own_velocity_.resize(layers.size());
+  const LayerSurroundings<Dim> around = layer_surroundings();
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    own_velocity_[l].clear();
+    for (const std::int32_t id : layers[l].ids) own_velocity_[l].push_back(velocity[index_of(id)]);
+    if (layers[l].ids.empty()) continue;
+    const Slip slip = all_smooth ? Slip::free : layers[l].slip;
+    extrapolate_velocity<Dim>(around, layers[l], slip, own_velocity_[l].front(), velocity);
+  }
+  if (!images.empty()) images.fill_velocities(velocity);
+}
+
+template <int Dim>
+void Body<Dim>::return_velocities(std::span<Vector<Dim>> velocity) const {
+  for (std::size_t l = 0; l < layers.size(); ++l)
+    for (std::size_t k = 0; k < layers[l].ids.size(); ++k) velocity[index_of(layers[l].ids[k])] = own_velocity_[l][k];
+}
+
+template <int Dim>
+void Body<Dim>::extrapolate_stresses(const Vector<Dim>& gravity) {
+  if (layers.empty()) return;
+  Particles<Dim>& p = particles;
+  plane_stress_.resize(p.position.size());
+  for (std::size_t i = 0; i < p.size(); ++i) plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>();
+  if (!images.empty()) images.fill_tensors(std::span(plane_stress_));
+  const double rho = std::visit([](const auto& law) { return law.initial_state().density; }, material);
+  const LayerSurroundings<Dim> around = layer_surroundings();
+  for (const BoundaryLayer<Dim>& layer : layers) extrapolate_stress<Dim>(around, layer, rho * gravity, plane_stress_, p.stress);
+}
+
+template <int Dim>
+void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  layer_forces_.assign(layers.size(), Vector<Dim>::Zero());
+  layer_power_ = layer_viscous_power_ = 0.0;
+  if (layers.empty()) return;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>();
+    if (scheme.correction == Correction::linear) plane_stress_[i] *= linear_[i].transpose();
+  }
+  if (!images.empty()) images.fill_tensors(std::span(plane_stress_));
+  strained_.assign(velocity.begin(), velocity.end());
+  const LayerSurroundings<Dim> around = layer_surroundings();
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    if (layers[l].ids.empty()) continue;
+    const Vector<Dim> V = own_velocity_[l].front();
+    if (layers[l].slip != Slip::free) extrapolate_velocity<Dim>(around, layers[l], layers[l].slip, V, strained_);
+    exchange_.resize(layers[l].ids.size());
+    layer_exchange<Dim>(around, layers[l], V, volume_, plane_stress_, strained_, exchange_);
+    for (std::size_t k = 0; k < layers[l].ids.size(); ++k) {
+      const std::size_t i = index_of(layers[l].ids[k]);
+      const Vector<Dim> force = p.mass[i] * p.acceleration[i];
+      layer_forces_[l] += force;
+      layer_power_ += exchange_[k].power;
+      // The sum over pairs took the lent velocity for a motion; the viscous force did work on V only.
+      layer_viscous_power_ += (force - exchange_[k].stress_force).dot(velocity[i] - V);
+      p.acceleration[i].setZero();
+    }
+  }
+}
+
+#define FURROW_INSTANTIATE(Dim)                                                                \
+  template void Body<Dim>::accelerate(double, std::span<Vector<Dim>>);                         \
+  template void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>>);              \
+  template LayerSurroundings<Dim> Body<Dim>::layer_surroundings();                             \
+  template void Body<Dim>::lend_velocities(std::span<Vector<Dim>>, bool);                      \
+  template void Body<Dim>::return_velocities(std::span<Vector<Dim>>) const;                    \
+  template void Body<Dim>::extrapolate_stresses(const Vector<Dim>&);                           \
+  template void Body<Dim>::account_layers(std::span<const Vector<Dim>>);
+FURROW_INSTANTIATE(2)
+FURROW_INSTANTIATE(3)
+#undef FURROW_INSTANTIATE
+
+}  // namespace furrow
