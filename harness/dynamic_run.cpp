@@ -62,6 +62,7 @@ void DynamicRun<Dim>::probe(HistoryColumn column, Probe value) {
 
 template <int Dim>
 void DynamicRun<Dim>::append_row() {
+  simulation_.take_stock();
   std::vector<double> values = standard_values(simulation_);
   for (const Probe& probe : probes_) values.push_back(probe(simulation_));
   history_->append(simulation_.time(), values);

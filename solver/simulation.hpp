@@ -44,11 +44,12 @@ class Simulation {
   StepLimiter limiter() const { return limiter_; }
   std::int64_t steps() const { return steps_; }
   /// Work and dissipation are those of this moment; what is stored (kinetic, elastic, plastic, in walls) and the imbalance are
-  /// looked up every `stock_every` steps and in a step that reaches its `end`.
+  /// looked up every `stock_every` steps, in a step that reaches its `end`, and by take_stock().
   const EnergyLedger& energy() const { return energy_; }
   /// (E - E_0) over the largest kinetic plus elastic energy or work so far.
   double energy_imbalance() const { return imbalance_; }
   static constexpr std::int64_t stock_every = 10;
+  void take_stock();
   Vector<Dim> momentum() const;
   double angular_momentum() const;   ///< about z through the origin, kg m^2/s
 
@@ -73,7 +74,6 @@ class Simulation {
  private:
   void drift(double dt);
   void account(double dt);
-  void take_stock();
   void check() const;
   Powers powers() const;
 

@@ -65,7 +65,7 @@ title = "A plate with too long a step"
 why = "What must diverge must be seen to."
 description = "For tests of the runner."
 tier = "smoke"
-parameters = { length = { value = 200, unit = "mm" }, thickness = { value = 20, unit = "mm" }, clamp_length = { value = 50, unit = "mm" }, density = { value = 1000, unit = "kg/m^3" }, young_modulus = { value = 2, unit = "MPa" }, poisson_ratio = 0.3975, velocity_amplitude = 0.001, end_time = { value = 0.28, unit = "s" }, courant = 3.0, scheme = { kernel = "wendland_c2" } }
+parameters = { length = { value = 200, unit = "mm" }, thickness = { value = 20, unit = "mm" }, clamp_length = { value = 50, unit = "mm" }, density = { value = 1000, unit = "kg/m^3" }, young_modulus = { value = 2, unit = "MPa" }, poisson_ratio = 0.3975, velocity_amplitude = 0.001, end_time = { value = 0.28, unit = "s" }, clamp = "layers", courant = 3.0, scheme = { kernel = "wendland_c2" } }
 resolution = { spacing = { value = [5], unit = "mm" }, h_over_dx = [1.3] }
 """
 for name, unit in (("period", "s"), ("amplitude", "1"), ("energy_imbalance", "1")):
