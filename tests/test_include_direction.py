@@ -11,7 +11,7 @@ LEVELS = [
     ["solver/tensor"],
     ["solver/smoothing", "solver/particles", "solver/materials"],
     ["solver/schemes", "solver/boundaries"],
-    ["solver/body"],
+    ["solver/body", "solver/body_forces"],
     ["solver/integrators"],
     ["solver/simulation"],
     ["solver/io"],
