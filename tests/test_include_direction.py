@@ -11,7 +11,7 @@ LEVELS = [
     ["solver/tensor"],
     ["solver/smoothing", "solver/particles", "solver/materials"],
     ["solver/schemes", "solver/boundaries"],
-    ["solver/body", "solver/body_forces"],
+    ["solver/body"],
     ["solver/integrators"],
     ["solver/simulation"],
     ["solver/io"],
@@ -25,7 +25,7 @@ def room_of(path):
     """Room of a file or of an included path; None for the top level."""
     parts = Path(path).as_posix()
     for room in [EXACT] + [room for level in LEVELS for room in level]:
-        if parts.startswith((room + "/", room + ".")):
+        if parts.startswith((room + "/", room + ".", room + "_")):   # body_forces.cpp is a part of body
             return room
     return None
 
