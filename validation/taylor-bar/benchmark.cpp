@@ -2,6 +2,7 @@
 // what each printed equation of the paper does to a rod.
 #include <cmath>
 
+#include "harness/printed_forms.hpp"
 #include "harness/scheme_input.hpp"
 #include "validation/taylor-bar/problems.hpp"
 #include "validation/taylor-bar/shot.hpp"
@@ -82,33 +83,10 @@ Problem whole_rod_too(const Parameters& input) {
   };
 }
 
-namespace {
-
-struct Variant {
-  std::string name, difference;
-  std::vector<MaterialChange> changes;
-};
-
-const std::vector<Variant> printed_variants{
-    {"right", "all equations in their right form", {}},
-    {"eq_9", "Eq. 9: no stress power in the energy, no heating", {{"form.eq_9", "printed"}}},
-    {"eq_17", "Eq. 17: denominator not squared", {{"form.eq_17", "printed"}}},
-    {"eq_19", "Eq. 19: f_y = sigma_y/(sqrt(3) J2), no root", {{"form.eq_19", "printed"}}},
-    {"eq_21", "Eq. 21: rate of the total strain", {{"form.eq_21", "printed"}}},
-    {"eq_24", "Eq. 24: brackets, and strain for its rate", {{"form.eq_24", "printed"}}},
-    {"failure", "failure zeroes shear only", {{"form.failure", "printed"}}},
-    {"table_1",
-     "Table 1: N and C interchanged",
-     {{"strength.n", R"({ value = 0.002, unit = "1", source = "tillage-tools-2024" })"},
-      {"strength.C", R"({ value = 0.42, unit = "1", source = "tillage-tools-2024" })"}}},
-};
-
-}  // namespace
-
 Problem printed_forms(const Parameters& input) {
   std::vector<Impact> impacts;
   const Impact rod = read_rod(input);
-  for (const Variant& v : printed_variants) {
+  for (const PrintedForm& v : printed_forms_of_metals) {
     Impact impact = rod;
     impact.material = read_material(input, "material", 0.0, v.changes).law;
     impacts.push_back(impact);
@@ -144,7 +122,7 @@ Problem printed_forms(const Parameters& input) {
       return outcome.length;
     };
     for (std::size_t i = 0; i < impacts.size(); ++i) {
-      const Variant& v = printed_variants[i];
+      const PrintedForm& v = printed_forms_of_metals[i];
       const double length = add(v.name, v.difference, impacts[i], run.resolution().smoothing_ratio);
       if (i == 0) {
         right_length = length;

@@ -1,31 +1,12 @@
 // What each of the paper's printed equations does to a point of material, one at a time, beside the right form: a table for the
 // report. The right forms are gated by the rate equations.
-#include "harness/material_file.hpp"
+#include "harness/printed_forms.hpp"
 #include "reference/exact/plasticity.hpp"
 #include "verification/material-point/drive.hpp"
 #include "verification/material-point/problems.hpp"
 
 namespace furrow::material_point_cases {
 namespace {
-
-struct Variant {
-  std::string name, difference;
-  std::vector<MaterialChange> changes;
-};
-
-const std::vector<Variant> metal_variants{
-    {"right", "all equations in their right form", {}},
-    {"eq_9", "Eq. 9: no stress power in the energy, no heating", {{"form.eq_9", "printed"}}},
-    {"eq_17", "Eq. 17: denominator not squared", {{"form.eq_17", "printed"}}},
-    {"eq_19", "Eq. 19: f_y = sigma_y/(sqrt(3) J2), no root", {{"form.eq_19", "printed"}}},
-    {"eq_21", "Eq. 21: rate of the total strain", {{"form.eq_21", "printed"}}},
-    {"eq_24", "Eq. 24: brackets, and strain for its rate", {{"form.eq_24", "printed"}}},
-    {"failure", "failure zeroes shear only", {{"form.failure", "printed"}}},
-    {"table_1",
-     "Table 1: N and C interchanged",
-     {{"strength.n", R"({ value = 0.002, unit = "1", source = "tillage-tools-2024" })"},
-      {"strength.C", R"({ value = 0.42, unit = "1", source = "tillage-tools-2024" })"}}},
-};
 
 struct Fate {
   double flow_stress = 0.0, heating = 0.0, work = 0.0;         // at strain 0.2 of a pull at 1000/s: Pa, K, J/kg
@@ -62,7 +43,7 @@ Fate fate(const AnyMaterial& material) {
 
 Problem printed_forms(const Parameters& input) {
   std::vector<NamedMaterial> metals, soils;
-  for (const Variant& v : metal_variants) metals.push_back(read_material(input, "metal", 0.0, v.changes));
+  for (const PrintedForm& v : printed_forms_of_metals) metals.push_back(read_material(input, "metal", 0.0, v.changes));
   const std::vector<std::string> updates{"return_map", "rate", "rate_printed"};
   for (const std::string& update : updates) soils.push_back(read_material(input, "soil", 0.0, {{"update", update}}));
   return [=](Run& run) {
@@ -78,10 +59,10 @@ Problem printed_forms(const Parameters& input) {
                               {"mean stress when failed and expanded by 3 %", "MPa"}});
     for (std::size_t i = 0; i < metals.size(); ++i) {
       const Fate f = fate(metals[i].law);
-      table.row({metal_variants[i].difference, f.flow_stress / 1e6, f.heating, f.work, f.pressure / 1e9, f.fracture,
+      table.row({printed_forms_of_metals[i].difference, f.flow_stress / 1e6, f.heating, f.work, f.pressure / 1e9, f.fracture,
                  f.tension_after / 1e6});
       if (i > 0) {
-        run.measure("flow_stress_" + metal_variants[i].name, f.flow_stress, "Pa");
+        run.measure("flow_stress_" + printed_forms_of_metals[i].name, f.flow_stress, "Pa");
         continue;
       }
       exact::Leg leg{.duration = 2e-4};
