@@ -4,8 +4,13 @@
 
 namespace furrow {
 
-Run::Run(Resolution resolution, std::filesystem::path folder, int threads, std::function<void(const Progress&)> on_progress)
-    : resolution_(resolution), folder_(std::move(folder)), threads_(threads), on_progress_(std::move(on_progress)) {}
+Run::Run(Resolution resolution, std::filesystem::path folder, int threads, std::function<void(const Progress&)> on_progress,
+         std::uint64_t particle_order)
+    : resolution_(resolution),
+      folder_(std::move(folder)),
+      threads_(threads),
+      on_progress_(std::move(on_progress)),
+      particle_order_(particle_order) {}
 
 namespace {
 

@@ -2,6 +2,7 @@
 // it runs (measurements, tables, figures). This is the whole surface that verification/ and validation/ are written against.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -79,11 +80,14 @@ class Run {
     long steps = 0;
   };
 
-  Run(Resolution resolution, std::filesystem::path folder, int threads, std::function<void(const Progress&)> on_progress = {});
+  Run(Resolution resolution, std::filesystem::path folder, int threads, std::function<void(const Progress&)> on_progress = {},
+      std::uint64_t particle_order = 0);
 
   const Resolution& resolution() const { return resolution_; }
   const std::filesystem::path& folder() const { return folder_; }   ///< where history.h5 and snapshots of this rung go
   int threads() const { return threads_; }
+  /// 0: particles as the problem made them; else the seed of another order, which is as right and rounds differently.
+  std::uint64_t particle_order() const { return particle_order_; }
 
   /// Each metric of the case file is measured exactly once (or skipped with a reason); a second time is a std::logic_error.
   void measure(std::string_view metric, double value, std::string_view unit = "1");
@@ -121,6 +125,7 @@ class Run {
   std::set<std::string> modules_;
   std::vector<std::pair<std::string, std::filesystem::path>> files_;
   long steps_ = 0, particles_ = 0, particle_steps_ = 0;
+  std::uint64_t particle_order_;
 };
 
 /// A problem is built once from the parameters of an instance (all input is checked then, before anything runs) and run once a

@@ -82,7 +82,8 @@ CaseProgress case_progress(const std::string& line) {
   return p;
 }
 
-void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const Json& provenance, int threads, int progress) {
+void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const Json& provenance, int threads, int progress,
+              std::uint64_t particle_order) {
   const std::size_t spacings = std::max<std::size_t>(1, spec.spacing.size()),
                     ratios = std::max<std::size_t>(1, spec.smoothing_ratio.size());
   const Clock::time_point start = Clock::now();
@@ -99,7 +100,7 @@ void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const J
         if (!spec.spacing.empty()) resolution = {spec.spacing[spacing], spec.smoothing_ratio[ratio]};
         const std::filesystem::path place = spec.spacing.empty() ? folder : rung_folder(spec, folder, spacing, ratio);
         std::filesystem::create_directories(place);
-        Run run(resolution, place, threads, [&](const Run::Progress& p) { teller.step(p); });
+        Run run(resolution, place, threads, [&](const Run::Progress& p) { teller.step(p); }, particle_order);
         spec.run(run);
         rungs.push_back({spacing, ratio, run.measurements()});
 

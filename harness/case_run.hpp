@@ -18,7 +18,8 @@ std::string to_line(const CaseProgress& progress);
 CaseProgress case_progress(const std::string& line);
 
 /// Runs the case and writes `folder`/result.json. An exception of the problem becomes an error result.
-/// `progress` is a file descriptor, or -1.
-void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const Json& provenance, int threads, int progress);
+/// `progress` is a file descriptor, or -1; `particle_order` is Run's.
+void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const Json& provenance, int threads, int progress,
+              std::uint64_t particle_order);
 
 }  // namespace furrow

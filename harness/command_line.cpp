@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "harness/bench.hpp"
+#include "harness/python_command.hpp"
 #include "harness/runner.hpp"
 #include "harness/result.hpp"
 
@@ -124,6 +125,7 @@ class CommandLine {
     add_matrix();
     add_report();
     add_bench();
+    add_python_commands();
     add_run_case();
   }
 
@@ -155,6 +157,9 @@ class CommandLine {
     sub->add_option("--jobs", jobs_, "Cases side by side (default: as many as cores)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
+    sub->add_option("--particle-order", options_.particle_order,
+                    "Seed of another order of particles, which is as right and rounds differently (default: 0, as made)")
+        ->type_name("SEED");
     sub->add_flag("--resume", options_.resume, "Keep results of the same commit and inputs, and go on from checkpoints");
     sub->add_flag("--replace", options_.replace, "Replace an earlier run in the folder");
     sub->add_flag("--quiet", options_.quiet, "Print nothing but errors");
@@ -224,6 +229,15 @@ class CommandLine {
     sub->callback([this] { action_ = [this] { return run_benchmarks(bench_); }; });
   }
 
+  void add_python_commands() {
+    for (const PythonCommand& one : python_commands) {
+      CLI::App* sub = app_.add_subcommand(one.name, one.description);
+      sub->set_help_flag();
+      sub->prefix_command();
+      sub->callback([this, sub, &one] { action_ = [sub, &one] { return become_python(one, sub->remaining()); }; });
+    }
+  }
+
   void add_run_case() {
     CLI::App* sub = app_.add_subcommand("run-case", "One case in this process, for the runner")->group("");
     sub->add_option("folder", report_folder_)->required();
@@ -256,6 +270,7 @@ class CommandLine {
   int run_matrix() {
     if (selection_.tier.empty()) selection_.tier = "quick";
     options_.tier = selection_.tier;
+    options_.only = selection_.only;
     const std::vector<CaseSpec> cases = of_tier(all_cases(), selection_);
     if (cases.empty())
       throw InputError("matrix", 0, "",

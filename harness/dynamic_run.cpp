@@ -1,6 +1,8 @@
 #include "harness/dynamic_run.hpp"
 
 #include <cstdlib>
+#include <numeric>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -39,6 +41,15 @@ std::vector<double> standard_values(const Simulation<Dim>& s) {
   const Vector<Dim> p = s.momentum();
   return {s.dt(),    static_cast<double>(s.limiter()), e.kinetic, e.elastic,  e.plastic, e.wall, e.layer, e.viscous,
           e.artificial, e.contact, e.damping,                     e.external, s.energy_imbalance(), p[0], p[1], s.angular_momentum()};
+}
+
+// A permutation of n particles, the same on every machine (Fisher and Yates).
+std::vector<std::int32_t> shuffled(std::size_t n, std::uint64_t seed) {
+  std::vector<std::int32_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937_64 random(seed);
+  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  return order;
 }
 
 }  // namespace
@@ -116,6 +127,8 @@ void DynamicRun<Dim>::until(double end, int rows, int snapshots, const std::func
   columns_ = std::move(all);
   if (!resume()) {
     history_.emplace(run_.folder() / "history.h5", columns_);
+    if (run_.particle_order() != 0)
+      permute(simulation_.body.particles, shuffled(simulation_.body.particles.size(), run_.particle_order()));
     simulation_.start();
     append_row();
     write_snapshot();

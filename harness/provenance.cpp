@@ -77,7 +77,7 @@ std::string formatted_time(const char* format, bool utc) {
 
 std::filesystem::path project_root() { return FURROW_SOURCE_DIR; }
 
-Json provenance(int threads) {
+Json provenance(int threads, std::uint64_t particle_order) {
   const std::string git = "git -c safe.directory=" + quoted(project_root()) + " -C " + quoted(project_root()) + " ";
   const std::string commit = trimmed(output_of(git + "rev-parse HEAD"));
   return {
@@ -86,6 +86,7 @@ Json provenance(int threads) {
       {"compiler", FURROW_COMPILER},
       {"flags", trimmed(FURROW_FLAGS)},
       {"threads", threads},
+      {"particle_order", particle_order},
       {"cpu", cpu()},
       {"cores", std::thread::hardware_concurrency()},
       {"packages", packages()},

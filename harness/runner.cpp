@@ -67,7 +67,7 @@ bool may_be_kept(const Json& result, const CaseSpec& spec, const Json& provenanc
   if (result.value("verdict", "error") == "error" || !result.contains("provenance")) return false;
   const Json& made = result["provenance"];
   const auto same = [&](const char* key) { return made.contains(key) && made[key] == provenance.at(key); };
-  return same("commit") && same("program") && made.value("inputs", "") == spec.fingerprint;
+  return same("commit") && same("program") && same("particle_order") && made.value("inputs", "") == spec.fingerprint;
 }
 
 // What makes two runs of a case the same computation. Written into its folder before it begins, so that a later run knows whether
@@ -76,6 +76,7 @@ Json identity(const CaseSpec& spec, const Json& provenance) {
   return {{"case", spec.id},
           {"commit", provenance.at("commit")},
           {"program", provenance.at("program")},
+          {"particle_order", provenance.at("particle_order")},
           {"inputs", spec.fingerprint}};
 }
 constexpr const char* identity_file = "begun.json";
@@ -106,7 +107,7 @@ class Runner {
   Runner(const std::vector<CaseSpec>& cases, const RunOptions& options)
       : cases_(cases),
         options_(options),
-        provenance_(provenance(options.threads)),
+        provenance_(provenance(options.threads, options.particle_order)),
         folder_(prepared_folder(options, provenance_)) {}
 
   int run() {
@@ -235,6 +236,7 @@ class Runner {
     }
     Json run{{"schema", 1}, {"provenance", provenance_}, {"command", options_.command}};
     if (!options_.tier.empty()) run["tier"] = options_.tier;
+    if (!options_.only.empty()) run["only"] = options_.only;
     run["cases"] = ids;
     run["case_files"] = files;
     run["overrides"] = options_.overrides;
@@ -297,7 +299,7 @@ int run_one(const std::vector<Family>& families, const fs::path& run_folder, con
   const std::vector<CaseSpec> specs = read_case_file(case_file, families, nullptr, bibliography, {run["overrides"], {id}});
   const auto spec = std::find_if(specs.begin(), specs.end(), [&](const CaseSpec& s) { return s.id == id; });
   if (spec == specs.end()) throw InputError(case_file.string(), 0, id, "found no such case, expected it there");
-  run_case(*spec, run_folder / id, run["provenance"], run["threads"], 3);
+  run_case(*spec, run_folder / id, run["provenance"], run["threads"], 3, run["provenance"]["particle_order"]);
   return 0;
 }
 

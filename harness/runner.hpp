@@ -1,6 +1,7 @@
 // Runner: many cases side by side, each in a process of its own, into one run folder with its report.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,7 +14,9 @@ struct RunOptions {
   std::filesystem::path folder;              ///< empty: runs/<date>-<time>-<commit>, or with resume the latest one
   int jobs = 1, threads = 1;
   bool resume = false, replace = false, quiet = false, report = true;
+  std::uint64_t particle_order = 0;          ///< 0, or the seed of another order of particles
   std::string tier;                          ///< as asked for; empty for `run`
+  std::vector<std::string> only;             ///< of the tier, only ids that match one of these; empty: all
   std::vector<std::string> command;          ///< the command line as given, for the record
   std::vector<std::string> overrides;
 };

@@ -1,0 +1,82 @@
+"""How far a metric moved from what was accepted, and whether toward the truth: pure functions of numbers."""
+
+import math
+import struct
+import sys
+from dataclasses import dataclass
+
+BITWISE, WITHIN, MOVED = "bitwise", "within", "moved"
+TOWARD, AWAY, UNDECIDED = "toward", "away", "undecided"
+
+# A spread of a few runs is smaller than what the next run may show; three of them are allowed.
+SPREADS = 3.0
+# What round-off alone may leave: a thousand units in the last place, as for observed orders.
+ROUND_OFF = 1000.0 * sys.float_info.epsilon
+# A reference's uncertainty covers what lies within two standard uncertainties of it.
+COVERAGE = 2.0
+
+
+@dataclass(frozen=True)
+class Change:
+    kind: str                    # bitwise, within, moved
+    direction: str | None        # of what moved: toward, away, undecided
+    allowance: float             # how far it may move and still be within
+    measured: bool               # whether the allowance rests on measured noise
+    why: str = ""                # of an undecided direction
+
+
+def same_bits(a, b):
+    return struct.pack("<d", a) == struct.pack("<d", b)
+
+
+def allowance(value, reference, unit, spread):
+    """How far a metric may move without a cause: three measured spreads, and never less than round-off of its scale.
+
+    The scale is the reference where there is one; an error of a pure number, whose reference is zero, is one of numbers of size 1.
+    """
+    if reference:
+        scale = max(abs(reference), abs(value))
+    else:
+        scale = max(1.0, abs(value)) if unit in ("1", "") else abs(value)
+    return max(SPREADS * (spread or 0.0), ROUND_OFF * scale)
+
+
+def truth_of(reference, norm):
+    """The number that a metric would have without any error: its reference; zero where it is itself the norm of an error and no
+    reference is stated; None where nobody says."""
+    if reference is not None and math.isfinite(reference):
+        return reference
+    words = norm.split()
+    return 0.0 if words[-1:] == ["value"] and len(words) > 1 else None
+
+
+def change(value, accepted, norm, reference, uncertainty):
+    """Change of a finite `value` from what was accepted (a baseline.Accepted with a value); ValueError for a number that is not
+    finite: a gate asks isfinite first."""
+    if not (math.isfinite(value) and math.isfinite(accepted.value)):
+        raise ValueError("a change of numbers that are not finite")
+    allowed = allowance(accepted.value, accepted.reference, accepted.unit, accepted.spread)
+    measured = accepted.spread is not None
+    new_truth, old_truth = truth_of(reference, norm), truth_of(accepted.reference, norm)
+    reference_moved = new_truth != old_truth and not (
+        new_truth is not None and old_truth is not None
+        and abs(new_truth - old_truth) <= ROUND_OFF * max(abs(new_truth), abs(old_truth)))
+    if reference_moved:
+        return Change(MOVED, UNDECIDED, allowed, measured, "the reference itself changed")
+    if same_bits(value, accepted.value):
+        return Change(BITWISE, None, allowed, measured)
+    if abs(value - accepted.value) <= allowed:
+        return Change(WITHIN, None, allowed, measured)
+    return Change(MOVED, *_direction(value, accepted.value, new_truth, old_truth, uncertainty, allowed, measured))
+
+
+def _direction(value, old, new_truth, old_truth, uncertainty, allowed, measured):
+    if new_truth is None:
+        return UNDECIDED, allowed, measured, "no reference says where the truth is"
+    far, was_far = abs(value - new_truth), abs(old - old_truth)
+    covered = COVERAGE * (uncertainty or 0.0)
+    if covered > 0.0 and far <= covered and was_far <= covered:
+        return UNDECIDED, allowed, measured, "the reference's uncertainty covers both"
+    if abs(far - was_far) <= allowed:
+        return UNDECIDED, allowed, measured, "as far from the truth as before, on the other side"
+    return (TOWARD if far < was_far else AWAY), allowed, measured, ""

@@ -1,0 +1,25 @@
+// Commands that read result files only: they are Python, and this program becomes them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace furrow {
+
+struct PythonCommand {
+  const char* name;
+  const char* module;        ///< python3 -m module name ...
+  const char* description;
+};
+
+inline constexpr PythonCommand python_commands[] = {
+    {"gate", "gate", "Compare a run with the accepted baselines: what moved, where to, and whether it may be merged"},
+    {"bless", "gate", "Accept cases of a run as baselines, with a reason for the ledger"},
+    {"noise", "gate", "Measure from several runs of one commit how far each metric moves without a cause"},
+};
+
+/// Replaces this process by the Python that answers `command`, from the current folder; the package is the project's own, and
+/// FURROW_PROGRAM names this program. Returns only by throwing std::runtime_error.
+[[noreturn]] int become_python(const PythonCommand& command, const std::vector<std::string>& arguments);
+
+}  // namespace furrow
