@@ -4,13 +4,12 @@ import argparse
 import datetime
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 from reports import results
 
-from gate import baseline, ledger, noise, outputs, table
+from gate import baseline, child, ledger, noise, outputs, table
 from gate.bless import bless as accept
 from gate.compare import TIERS, compare
 from gate.files import ROOT, GateError, locked
@@ -64,11 +63,6 @@ def _day(text):
         raise argparse.ArgumentTypeError(f"{text!r} is no date such as 2027-05-22") from None
 
 
-def program():
-    """The program that this command came from, or the entry script."""
-    return os.environ.get("FURROW_PROGRAM") or str(ROOT / "furrow")
-
-
 def load(folder):
     try:
         return results.load(folder)
@@ -76,18 +70,18 @@ def load(folder):
         raise GateError(str(error)) from None
 
 
-def run_tier(arguments, folder):
+def run_tier(arguments, folder, tier):
     """Runs the tier into `folder`; GateError when nothing has run."""
-    command = [program(), "matrix", "--no-report", "--out", str(folder), "--tier", arguments.tier or "quick"]
+    command = ["matrix", "--no-report", "--out", str(folder), "--tier", tier]
     for glob in arguments.only:
         command += ["--only", glob]
     for name in ("jobs", "threads"):
         if getattr(arguments, name):
             command += [f"--{name}", str(getattr(arguments, name))]
     command += ["--resume"] * arguments.resume + ["--quiet"] * arguments.quiet
-    code = subprocess.run(command).returncode
+    code = child.run(command)
     if code == 130 or code < 0:
-        raise GateError(f"the run was interrupted; './furrow gate --resume --out {folder}' goes on with it", 130)
+        raise GateError(f"the run was interrupted; './furrow {arguments.command} --resume --out {folder}' goes on with it", 130)
     if code not in (0, 1, 3):
         raise GateError("nothing was run, so that nothing can be compared", code)
 
@@ -97,8 +91,18 @@ def build_report(folder):
     return build(folder)
 
 
-def new_folder():
-    return ROOT / "runs" / f"{datetime.datetime.now():%Y%m%d-%H%M%S}-gate"
+def new_folder(name):
+    """A folder below runs/ that nobody else has; it is made."""
+    for attempt in range(100):
+        folder = ROOT / "runs" / f"{datetime.datetime.now():%Y%m%d-%H%M%S}-{name}{f'-{attempt}' if attempt else ''}"
+        try:
+            folder.mkdir(parents=True)
+            return folder
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise GateError(f"{folder}: cannot be made: {error.strerror}", 3) from None
+    raise GateError(f"{folder}: is there already")
 
 
 def gate(arguments):
@@ -107,10 +111,10 @@ def gate(arguments):
         raise GateError("RUN is a run that is there; --tier, --out and --resume are for one that is made")
     if arguments.run and not arguments.run.is_dir():
         raise GateError(f"{arguments.run}: no such folder")
-    folder = arguments.run or arguments.out or new_folder()
+    folder = arguments.run or arguments.out or new_folder("gate")
     with locked(folder, "gate"):
         if not arguments.run:
-            run_tier(arguments, folder)
+            run_tier(arguments, folder, arguments.tier or "quick")
         run = load(folder)
         comparison = compare(run, baselines, entries)
         outputs.write(run, comparison, baselines)

@@ -19,12 +19,18 @@ def numbers_of(row):
     """'16.31 → 16.35 mm', '16.31 mm → nothing'."""
     if row.value is None and row.accepted is None:
         return ""
-    old, new = ("nothing" if x is None else number(x) for x in (row.accepted, row.value))
     tail = f" {unit(row.unit)}" if unit(row.unit) else ""
-    if row.value is not None and row.accepted is not None and old == new:
-        digits = next((d for d in range(5, 18) if number(row.accepted, d) != number(row.value, d)), 17)
-        old, new = number(row.accepted, digits), number(row.value, digits)
+    if row.value is None or row.accepted is None:
+        old, new = ("nothing" if x is None else number(x) for x in (row.accepted, row.value))
+    else:
+        old, new = told_apart(row.accepted, row.value)
     return f"{old} → {new}{tail}"
+
+
+def told_apart(a, b, digits=4):
+    """Both numbers with as many digits as it takes to see that they differ."""
+    digits = next((d for d in range(digits, 18) if number(a, d) != number(b, d)), digits)
+    return number(a, digits), number(b, digits)
 
 
 def moved_words(row):

@@ -12,6 +12,7 @@
 
 #include "harness/gate.hpp"
 #include "harness/result.hpp"
+#include "solver/modules.hpp"
 
 namespace furrow {
 namespace {
@@ -64,6 +65,17 @@ std::filesystem::path rung_folder(const CaseSpec& spec, const std::filesystem::p
 std::string relative_name(const std::filesystem::path& file, const std::filesystem::path& rung,
                           const std::filesystem::path& folder) {
   return (file.is_absolute() ? file : rung / file).lexically_relative(folder).string();
+}
+
+// What has run in this process joins what the case declares. A declared module that has not run is an error of the case: it would
+// stand for a test that there is not. Kernels and laws are functions that a case may call by itself, and are believed.
+void check_modules(std::set<std::string>& modules) {
+  for (std::size_t i = 0; i < module_names.size(); ++i) {
+    const std::string name(module_names[i]);
+    if (modules_run[i]) modules.insert(name);
+    else if (modules.contains(name) && !name.starts_with("materials/"))
+      throw std::logic_error("the case says that it exercises " + name + ", which has not run");
+  }
 }
 
 std::chrono::year_month_day today() {
@@ -122,6 +134,7 @@ void run_case(const CaseSpec& spec, const std::filesystem::path& folder, const J
         cost.particle_steps += run.particle_steps();
         if (std::filesystem::is_empty(place)) std::filesystem::remove(place);
       }
+    check_modules(shown.modules);
     add_new_names(shown.tables, others.tables);
     add_new_names(shown.figures, others.figures);
     verdict = judge(spec, rungs, today());

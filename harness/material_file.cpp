@@ -8,6 +8,7 @@
 
 #include "harness/case_file.hpp"
 #include "harness/provenance.hpp"
+#include "solver/materials/parts.hpp"
 
 namespace furrow {
 namespace {
@@ -254,6 +255,10 @@ NamedMaterial read_material(const Parameters& parameters, std::string_view key, 
     }
   for (const MaterialChange& change : changes) file.assign(change.path, change.value, parameters.file());
   return read_material(file, spacing);
+}
+
+void exercise(Run& run, const AnyMaterial& material) {
+  for_each_part(material, [&run](Module part) { run.exercises(module_names[static_cast<std::size_t>(part)]); });
 }
 
 }  // namespace furrow

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/case.hpp"
 #include "harness/input.hpp"
 #include "solver/materials/materials.hpp"
 
@@ -49,5 +50,8 @@ NamedMaterial read_material(const Parameters& parameters, std::string_view key, 
 
 /// The material of one file that has been parsed already.
 NamedMaterial read_material(const Parameters& file, double spacing);
+
+/// Names the law and its parts among what the run exercises.
+void exercise(Run& run, const AnyMaterial& material);
 
 }  // namespace furrow

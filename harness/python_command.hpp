@@ -15,6 +15,8 @@ struct PythonCommand {
 inline constexpr PythonCommand python_commands[] = {
     {"gate", "gate", "Compare a run with the accepted baselines: what moved, where to, and whether it may be merged"},
     {"bless", "gate", "Accept cases of a run as baselines, with a reason for the ledger"},
+    {"nightly", "night", "Run the nightly tier, remember every number of it, and tell in one screen what moved"},
+    {"history", "night", "What was measured, night by night, and since which commit it is different"},
     {"noise", "gate", "Measure from several runs of one commit how far each metric moves without a cause"},
 };
 

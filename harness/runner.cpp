@@ -96,6 +96,21 @@ std::string last_words(const fs::path& log) {
   return last.substr(0, 300);
 }
 
+// Runs one of the project's Python packages to its end; true when it succeeded, else it says on standard error what failed and how.
+bool python(const char* what, std::vector<std::string> words, const fs::path& log) {
+  const std::string root = project_root().string();
+  words.insert(words.begin(), {"/usr/bin/env", "-C", root, "/usr/bin/python3", "-m"});
+  Child child(words, {{"PYTHONPATH", root}, {"PYTHONDONTWRITEBYTECODE", "1"}}, log);
+  while (!child.ended()) wait_for_any({&child}, 0.02);
+  if (child.how().empty()) {
+    fs::remove(log);
+    return true;
+  }
+  const std::string last = last_words(log);
+  fmt::print(stderr, "furrow: {} failed ({}){}{}\n", what, child.how(), last.empty() ? "" : ": ", last);
+  return false;
+}
+
 struct RunningCase {
   const CaseSpec* spec;
   Child child;
@@ -128,6 +143,8 @@ class Runner {
     for (const Json& result : results) ++counts_[result["verdict"]];
     int code = interrupted() ? 130 : counts_["error"] > 0 ? 3 : counts_["fail"] > 0 ? 1 : 0;
     write_run(true, wall, code);
+    // What moved since the baseline is for the report; here it is no verdict, and a baseline that cannot be read no failure.
+    if (options_.report) python("the comparison with the baselines", {"gate", "record", folder_.string()}, folder_ / "gate.log");
     const bool reported = !options_.report || make_report(folder_);
     if (!reported && code < 2) write_run(true, wall, code = 3);
     if (!options_.quiet) summary(wall, reported);
@@ -278,18 +295,7 @@ class Runner {
 int run_cases(const std::vector<CaseSpec>& cases, const RunOptions& options) { return Runner(cases, options).run(); }
 
 bool make_report(const fs::path& folder) {
-  const fs::path log = folder / "report.log";
-  const std::string root = project_root().string();
-  Child report({"/usr/bin/env", "-C", root, "/usr/bin/python3", "-m", "reports", fs::absolute(folder).string(), "--quiet"},
-               {{"PYTHONPATH", root}, {"PYTHONDONTWRITEBYTECODE", "1"}}, log);
-  while (!report.ended()) wait_for_any({&report}, 0.02);
-  if (report.how().empty()) {
-    fs::remove(log);
-    return true;
-  }
-  const std::string words = last_words(log);
-  fmt::print(stderr, "furrow: the report failed ({}){}{}\n", report.how(), words.empty() ? "" : ": ", words);
-  return false;
+  return python("the report", {"reports", fs::absolute(folder).string(), "--quiet"}, folder / "report.log");
 }
 
 int run_one(const std::vector<Family>& families, const fs::path& run_folder, const fs::path& case_file, const std::string& id) {

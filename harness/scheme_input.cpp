@@ -62,14 +62,15 @@ Scheme read_scheme(const Parameters& parameters) {
 
 void exercise(Run& run, const Scheme& scheme) {
   run.exercises("smoothing/" + std::string(std::visit([](auto k) { return decltype(k)::name; }, scheme.kernel)));
-  run.exercises("schemes/velocity_gradient");
+  if (scheme.correction != Correction::quadratic) run.exercises("schemes/velocity_gradient");
   run.exercises("schemes/momentum");
   if (scheme.correction == Correction::linear) run.exercises("schemes/kernel_correction");
   if (scheme.correction == Correction::quadratic) run.exercises("schemes/quadratic_gradient");
-  if (scheme.density != DensityEquation::continuity || scheme.shepard_every > 0) run.exercises("schemes/density");
+  const bool sums_density = scheme.density == DensityEquation::shepard || scheme.density == DensityEquation::summation;
+  if (sums_density || scheme.shepard_every > 0) run.exercises("schemes/density");
   if (scheme.viscosity) run.exercises("schemes/viscosity");
   if (scheme.artificial_stress) run.exercises("schemes/artificial_stress");
-  if (scheme.hourglass > 0.0) run.exercises("schemes/hourglass");
+  if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) run.exercises("schemes/hourglass");
   if (scheme.xsph > 0.0) run.exercises("schemes/xsph");
   if (scheme.frame == Frame::reference) run.exercises("schemes/reference_frame");
   run.exercises("integrators/step_control");

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import jinja2
 
-from reports import numbers, results, summary, validation, view
+from reports import changes, numbers, results, summary, trends, validation, view
 from reports.figures import history, ladder, lines, particles, snapshot
 
 HERE = Path(__file__).resolve().parent
@@ -104,8 +104,9 @@ def _assign_pages(cases):
         case.page = page + ".html"
 
 
-def figures_of(case, provenance):
-    """(ladders by metric name, time series, snapshots, own figures) of a case, each a Figure."""
+def figures_of(case, provenance, accepted=None):
+    """(ladders by metric name, time series, snapshots, own figures) of a case, each a Figure. `accepted`: curves of the baseline,
+    where the case has moved away from it."""
     mark = stamp(provenance)
     base = "figures/" + case.page.removeprefix("cases/").removesuffix(".html")
     taken = set()
@@ -131,6 +132,8 @@ def figures_of(case, provenance):
     own = []
     for data in case.data.get("figures", []):
         what = ", ".join(f"{s['label']} ({s['role']})" for s in data["series"])
+        if data["kind"] == "lines":
+            data = changes.overlaid(data, accepted)
         draw = particles.draw if data["kind"] == "particles" else lines.draw
         own.append(Figure(file(data["name"]), data["title"], data.get("caption", ""),
                           f"{data['title']}. {data['y']['label']} over {data['x']['label']}: {what}.", draw, (data, mark)))
@@ -186,7 +189,9 @@ def draw_all(figures, root, jobs):
 
 def _write(run, work, jobs):
     _assign_pages(run.cases)
-    drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance) for case in run.cases}
+    since, course = changes.load(run.folder), trends.load(run.folder)
+    drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance, since.curves.get(case.id))
+             for case in run.cases}
     compared = validation.groups(run)
     scatter = [Figure(f"figures/validation/{slug(data['name'])}.svg", data["title"], data["caption"],
                       f"{data['y']['label']} over {data['x']['label']}.", lines.draw, (data, stamp(run.provenance)))
@@ -203,10 +208,17 @@ def _write(run, work, jobs):
         with_uncertainty=numbers.with_uncertainty, order=numbers.order, quantity=numbers.quantity, with_unit=numbers.with_unit,
         duration=numbers.duration, ladders_of=ladder.ladders_of, band_words=view.band_words, error_words=view.error_words,
         bar=view.bar, flatten=view.flatten, expiry=view.expiry, when=view.when, spacing_words=view.spacing_words,
-        common_rung=view.common_rung, is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
+        common_rung=view.common_rung, change_words=changes.words, change_part=changes.part,
+        sparkline=trends.sparkline, trend_name=trends.name, trend_last=trends.last, is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run),
-              "compared": compared}
+              "compared": compared, "changes": since, "trends": course}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
+    if since:
+        (work / "changes.html").write_text(environment.get_template("changes.html").render(
+            root="", pages={case.id: case.page for case in run.cases}, **common), encoding="utf-8")
+    if course:
+        (work / "trends.html").write_text(environment.get_template("trends.html").render(
+            root="", pages={case.id: case.page for case in run.cases}, **common), encoding="utf-8")
     if compared:
         (work / "validation.html").write_text(environment.get_template("validation.html").render(
             root="", groups=compared, figures=scatter, signed=view.signed, share=view.share, **common), encoding="utf-8")

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "solver/particles/ordered_sum.hpp"
+#include "solver/materials/parts.hpp"
 #include "solver/schemes/density.hpp"
 #include "solver/schemes/kernel_correction.hpp"
 #include "solver/schemes/reference_frame.hpp"
@@ -148,6 +149,7 @@ void Body<Dim>::find_neighbours() {
 
 template <int Dim>
 void Body<Dim>::build_reference() {
+  has_run(Module::reference_frame);
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
   const double rho_0 = std::visit([](const auto& law) { return law.initial_state().density; }, material);
@@ -218,6 +220,7 @@ void Body<Dim>::restore_neighbours() {
 template <int Dim>
 void Body<Dim>::fill_images() {
   if (images.empty()) return;
+  has_run(Module::images);
   images.fill_positions(particles.position);
   images.fill_velocities(particles.velocity);
   images.fill_positions(particles.reference_position);
@@ -301,6 +304,8 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
     shepard_density<Dim>(s, p.mass, density_before_, p.density);
   }
 
+  has_run(Module::jaumann_rate);
+  for_each_part(material, has_run);
   std::visit(
       [&](const auto& law) {
         const auto n = static_cast<std::int64_t>(p.size());
@@ -332,6 +337,7 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
 template <int Dim>
 void Body<Dim>::prescribe(double time, std::span<Vector<Dim>> velocity) const {
   for (const PrescribedMotion<Dim>& motion : loads.motions) {
+    has_run(Module::prescribed_motion);
     const Vector<Dim> v = motion.velocity(time);
     for (const std::int32_t id : motion.ids) velocity[index_of(id)] = v;
   }

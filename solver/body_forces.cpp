@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "solver/body.hpp"
+#include "solver/modules.hpp"
 #include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/hourglass.hpp"
 #include "solver/schemes/reference_frame.hpp"
@@ -29,11 +30,14 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
   wall_forces_.clear();
   friction_power_ = 0.0;
   for (const RigidWall<Dim>& wall : walls) {
+    has_run(Module::wall);
     const auto push = wall.push(p, spacing, velocity, p.acceleration, [this](std::size_t i) { return !is_in_layer(i); });
     wall_forces_.push_back(push.force);
     friction_power_ += push.friction_power;
   }
   external_power_ = damping_power_ = 0.0;
+  if (damping > 0.0) has_run(Module::damping);
+  if (!gravity.isZero(0.0)) has_run(Module::gravity);
   if (damping > 0.0 || !gravity.isZero(0.0))
     std::tie(external_power_, damping_power_) = std::tuple_cat(ordered_sum<2>(n, [&](std::size_t i, auto& sum) {
       if (is_in_layer(i)) return;
@@ -44,6 +48,7 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
   for (std::size_t l = 0; l < layers.size(); ++l)
     external_power_ -= layers[l].ids.empty() ? 0.0 : layer_forces_[l].dot(layers[l].velocity(time));
   for (const AppliedForce<Dim>& load : loads.forces) {
+    has_run(Module::applied_force);
     double mass = 0.0;
     for (const std::int32_t id : load.ids) mass += p.mass[index_of(id)];
     const Vector<Dim> a = load.force(time) / mass;
@@ -53,6 +58,7 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
       external_power_ += p.mass[i] * a.dot(velocity[i]);
     }
   }
+  if (!loads.faces.empty()) has_run(Module::held_face);
   for (const HeldFace& face : loads.faces)
     for (const HeldFace::Column& column : face.columns) {
       Vector<Dim> at_face = Vector<Dim>::Zero();
@@ -116,6 +122,7 @@ LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
 template <int Dim>
 void Body<Dim>::lend_velocities(std::span<Vector<Dim>> velocity, bool all_smooth) {
   if (layers.empty()) return;
+  has_run(Module::boundary_layer);
   own_velocity_.resize(layers.size());
   const LayerSurroundings<Dim> around = layer_surroundings();
   for (std::size_t l = 0; l < layers.size(); ++l) {

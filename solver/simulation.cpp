@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/modules.hpp"
 #include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/xsph.hpp"
 
@@ -27,6 +28,7 @@ void Simulation<Dim>::start() {
 
 template <int Dim>
 void Simulation<Dim>::step(double end) {
+  has_run(Module::simulation);
   Particles<Dim>& p = body.particles;
   const std::size_t n = p.size();
   const StepLength length = step_length(body, compression_, control);

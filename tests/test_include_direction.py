@@ -8,6 +8,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 
 LEVELS = [
+    ["solver/modules"],
     ["solver/tensor"],
     ["solver/smoothing", "solver/particles", "solver/materials"],
     ["solver/schemes", "solver/boundaries"],

@@ -57,6 +57,8 @@ def look(role, index, count):
     if role == "experiment":
         return dict(color=INK, linestyle="None", marker=MARKERS[index % len(MARKERS)], fillstyle="none", markeredgewidth=1.3,
                     zorder=5)
+    if role == "accepted":   # of an earlier commit: wide and pale, so that a new curve that has not moved lies on it
+        return dict(color=GRID, linestyle="-", marker="None", linewidth=5.0, zorder=1.5, solid_capstyle="butt")
     if role == "published":
         return dict(color=CYCLE[3 + index % 2 * 4], linestyle=(0, (3, 2)), marker=MARKERS[(index + 3) % len(MARKERS)],
                     fillstyle="none", linewidth=1.2, zorder=4)

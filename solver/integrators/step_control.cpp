@@ -1,11 +1,13 @@
 #include "solver/integrators/step_control.hpp"
 
+#include "solver/modules.hpp"
 #include "solver/schemes/reference_frame.hpp"
 
 namespace furrow {
 
 template <int Dim>
 StepLength step_length(const Body<Dim>& body, double compression, const StepControl& control) {
+  has_run(Module::step_control);
   if (control.fixed) return {control.largest, StepLimiter::courant};
   const Particles<Dim>& p = body.particles;
   const double h = body.smoothing_length();

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
@@ -117,6 +119,7 @@ template <int Dim>
 void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>& cell_begin,
                       const std::vector<std::int32_t>& image_begin, std::span<const Vector<Dim>> position, std::size_t proper,
                       double reach, NeighbourList& list) {
+  has_run(Module::neighbours);
   const auto n = static_cast<std::int64_t>(proper);
   const double reach2 = reach * reach;
   const bool periodic = grid.box.any_periodic();

@@ -1,5 +1,7 @@
 #include "solver/schemes/density.hpp"
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 namespace {
 
@@ -19,6 +21,7 @@ double own_weight(const K&, double h) {
 
 template <int Dim>
 void interpolate(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const double> f, std::span<double> out) {
+  has_run(Module::density);
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(volume, f), [&](std::size_t i, auto&& neighbours, auto kernel) {
     Lanes total{};
@@ -29,6 +32,7 @@ void interpolate(const Stencil<Dim>& stencil, std::span<const double> volume, st
 
 template <int Dim>
 void summation_density(const Stencil<Dim>& stencil, std::span<const double> mass, std::span<double> density) {
+  has_run(Module::density);
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(mass), [&](std::size_t i, auto&& neighbours, auto kernel) {
     Lanes total{};
@@ -40,6 +44,7 @@ void summation_density(const Stencil<Dim>& stencil, std::span<const double> mass
 template <int Dim>
 void shepard_density(const Stencil<Dim>& stencil, std::span<const double> mass, std::span<const double> before,
                      std::span<double> density) {
+  has_run(Module::density);
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(mass, before), [&](std::size_t i, auto&& neighbours, auto kernel) {
     Lanes mass_sum{}, volume_sum{};

@@ -1,10 +1,13 @@
 #include "solver/schemes/hourglass.hpp"
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
 void hourglass_control(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, double chi,
                        std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
+  has_run(Module::hourglass);
   const double h = stencil.smoothing_length, reach = support(stencil.kernel) * h, reach2 = reach * reach;
   const auto read = reads(p.reference_position, p.deformation_gradient, p.density, p.sound_speed, p.mass, velocity);
   for_each_particle(stencil, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {

@@ -3,10 +3,13 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
 void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<KernelSums<Dim>> out) {
+  has_run(Module::kernel_correction);
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(volume), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     Lanes unity{};
@@ -24,6 +27,7 @@ void kernel_sums(const Stencil<Dim>& stencil, std::span<const double> volume, st
 
 template <int Dim>
 void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<Matrix<Dim>> out, double least_span) {
+  has_run(Module::kernel_correction);
   for_each_particle(stencil, reads(volume), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> linear;
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 namespace {
 
@@ -83,6 +85,9 @@ template <int Dim>
 void momentum(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
               const CorrectionView<Dim>& correction, const MomentumTerms& terms, MomentumWorkspace<Dim>& w,
               std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
+  has_run(Module::momentum);
+  if (terms.viscosity) has_run(Module::viscosity);
+  if (terms.artificial_stress) has_run(Module::artificial_stress);
   const auto* linear = std::get_if<std::span<const Matrix<Dim>>>(&correction);
   const auto* quadratic = std::get_if<std::span<const QuadraticGradient<Dim>>>(&correction);
   const bool dual = linear || quadratic;

@@ -1,5 +1,7 @@
 #include "solver/schemes/quadratic_gradient.hpp"
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 namespace {
 
@@ -39,6 +41,7 @@ bool fit(const Moments& M, double h, QuadraticGradient<Dim>& C) {
 
 template <int Dim>
 void quadratic_correction(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<QuadraticGradient<Dim>> out) {
+  has_run(Module::quadratic_gradient);
   constexpr int terms = quadratic_terms<Dim>;
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(volume), [&]<class K>(std::size_t i, auto&& neighbours, K) {
@@ -61,6 +64,7 @@ void quadratic_correction(const Stencil<Dim>& stencil, std::span<const double> v
 template <int Dim>
 void quadratic_velocity_gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const Vector<Dim>> velocity,
                                  std::span<const QuadraticGradient<Dim>> correction, std::span<Matrix<Dim>> out) {
+  has_run(Module::quadratic_gradient);
   constexpr int terms = quadratic_terms<Dim>;
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(volume, velocity), [&]<class K>(std::size_t i, auto&& neighbours, K) {

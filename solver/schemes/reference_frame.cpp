@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
@@ -19,6 +21,7 @@ template <int Dim>
 void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p, std::span<const double> volume,
                          std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi,
                          double zeta, std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
+  has_run(Module::hourglass);
   const double h = reference.smoothing_length;
   const auto read = reads(p.position, velocity, p.deformation_gradient, gradient_rate, p.density, p.sound_speed, volume);
   for_each_particle(reference, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {

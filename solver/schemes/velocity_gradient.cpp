@@ -1,10 +1,13 @@
 #include "solver/schemes/velocity_gradient.hpp"
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
 void gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const double> f,
               std::span<const Matrix<Dim>> correction, std::span<Vector<Dim>> out) {
+  has_run(Module::velocity_gradient);
   for_each_particle(stencil, reads(volume, f), [&](std::size_t i, auto&& neighbours, auto) {
     LaneVector<Dim> total;
     const Lanes f_i = broadcast(f[i]);
@@ -19,6 +22,7 @@ void gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::
 template <int Dim>
 void velocity_gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const Vector<Dim>> velocity,
                        std::span<const Matrix<Dim>> correction, std::span<Matrix<Dim>> out) {
+  has_run(Module::velocity_gradient);
   for_each_particle(stencil, reads(volume, velocity), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> L;
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);

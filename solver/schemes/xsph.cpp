@@ -1,10 +1,13 @@
 #include "solver/schemes/xsph.hpp"
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
 void xsph_velocity(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, double eps,
                    std::span<Vector<Dim>> out) {
+  has_run(Module::xsph);
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(p.mass, p.density, velocity), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     LaneVector<Dim> drift;

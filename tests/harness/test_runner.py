@@ -47,7 +47,7 @@ def test_the_run_ends_as_error_and_every_case_has_a_valid_result(everything):
         data = json.loads((folder / case / "result.json").read_text())
         jsonschema.Draft202012Validator(SCHEMA).validate(data)
         assert data["case"] == case
-    assert len(announced) == 16
+    assert len(announced) == 17
 
 
 @pytest.mark.parametrize("case, verdict, reason", [
@@ -67,6 +67,7 @@ def test_the_run_ends_as_error_and_every_case_has_a_valid_result(everything):
     ("skips", "error", "no metric of the case was gated"),
     ("skips-silently", "error", "skipped without a reason"),
     ("no-metric", "error", "the case has no metric"),
+    ("declares-more", "error", "says that it exercises schemes/momentum, which has not run"),
 ])
 def test_verdict_and_reason(everything, case, verdict, reason):
     data = result(everything[0], case)
@@ -79,7 +80,7 @@ def test_junit_has_a_test_case_for_each_metric(everything):
     folder, _ = everything
     suites = ET.parse(folder / "junit.xml").getroot()
     assert int(suites.get("failures")) == 1
-    assert len(suites.findall("testsuite")) == 16
+    assert len(suites.findall("testsuite")) == 17
     good = next(s for s in suites if s.get("name") == "misbehaving/good")
     assert [c.get("name") for c in good.findall("testcase")] == ["length"]
     assert good.find("testcase/failure") is None and good.find("testcase/error") is None

@@ -37,7 +37,7 @@ Problem benchmark(const Parameters& input) {
   return [=](Run& run) {
     const Outcome outcome = collide(run, impact);
     exercise(run, impact.scheme);
-    run.exercises("boundaries/symmetry_plane");
+    run.exercises("particles/images");
     run.measure("final_length", outcome.length, "m");
     run.measure("foot_radius", outcome.foot_radius, "m");
     run.measure("early_foot_radius", value_at(outcome.time, outcome.foot_radius_at, early), "m");
@@ -76,7 +76,7 @@ Problem whole_rod_too(const Parameters& input) {
     const Outcome a = collide(run, quarter), b = collide(other, whole);
     run.count(other.steps(), other.particles());
     exercise(run, quarter.scheme);
-    run.exercises("boundaries/symmetry_plane");
+    run.exercises("particles/images");
     run.measure("length_difference", a.length / b.length - 1.0);
     run.measure("foot_radius_difference", a.foot_radius / b.foot_radius - 1.0);
     run.measure("plastic_strain_difference", a.greatest_plastic_strain / b.greatest_plastic_strain - 1.0);

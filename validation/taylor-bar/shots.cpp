@@ -99,7 +99,7 @@ Problem shot(const Parameters& input) {
     const Outcome outcome = collide(run, shot.impact);
     const Predicted p = predicted(shot.impact, outcome);
     const Measured& m = shot.measured;
-    run.exercises("boundaries/symmetry_plane");
+    run.exercises("particles/images");
     exercise(run, shot.impact.scheme);
     for (const std::string& sentence : before) run.note(sentence);
     for (const std::string& sentence : warnings_after(shot.impact, outcome)) run.note(sentence);

@@ -134,7 +134,7 @@ Problem cantilever_ladder(const Parameters& input) {
       for (const int n : across) {
         // Each strip is a run of its own, with files and checkpoint in a folder of its own.
         Run part({strip.t / n, ratio}, run.folder() / fmt::format("{}-{}", named.name, n), run.threads(),
-                 [&run](const Run::Progress& p) { run.progress(p.simulated_time, p.end_time, p.steps); });
+                 [&run](const Run::Progress& p) { run.progress(p.simulated_time, p.end_time, p.steps); }, run.particle_order());
         const Deflection w = deflection_at_rest(part, strip, named.scheme);
         run.count(part.steps(), part.particles());
         for (const std::string& module : part.modules()) run.exercises(module);

@@ -120,7 +120,6 @@ Problem order_in_time(const Parameters& input) {
     run.figure(std::move(figure));
     run.measure("order", order);
     exercise(run, scheme);
-    run.exercises("integrators/kick_drift_kick");
   };
 }
 

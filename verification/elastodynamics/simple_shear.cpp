@@ -64,7 +64,7 @@ Problem simple_shear(const Parameters& input) {
     dynamic.until(end, 400, 4);
     exercise(run, scheme);
     run.exercises("boundaries/prescribed_motion");
-    run.exercises("materials/elastic");
+    run.exercises("materials/linear_elastic");
 
     double stress_error = 0.0, density = 0.0;
     for (const double e : dynamic.column("stress_error")) stress_error = std::max(stress_error, e);

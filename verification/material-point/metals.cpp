@@ -128,8 +128,7 @@ Problem metal_path(const Parameters& input) {
   const bool first_leg = input.choice_or("order_of_leg", "last", {"first", "last"}) == "first";
   const std::string name = input.choice("path", {"tension", "compression", "torsion", "plane_strain", "tension_torsion"});
   return [=](Run& run) {
-    const std::string law = std::visit([](const auto& m) { return std::string(m.name); }, material.law);
-    run.exercises("materials/" + law);
+    exercise(run, material.law);
     MaterialState start = initial_state(material.law);
     start.temperature = T_0;
     const std::vector<exact::Leg> legs = path(name, rate);

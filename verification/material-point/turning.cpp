@@ -59,7 +59,7 @@ Problem simple_shear(const Parameters& input) {
             throw std::runtime_error("simple shear has a closed form for perfect plasticity alone");
         },
         material);
-    run.exercises("materials/" + std::visit([](const auto& m) { return std::string(m.name); }, material));
+    exercise(run, material);
     run.exercises("materials/jaumann_rate");
     const double scale = std::min(truth.strength, truth.G);
 
@@ -105,7 +105,7 @@ Problem rotation(const Parameters& input) {
   const AnyMaterial material = read_material(input, "material").law;
   const double size = input.number("strain", range::positive);
   return [=](Run& run) {
-    run.exercises("materials/" + std::visit([](const auto& m) { return std::string(m.name); }, material));
+    exercise(run, material);
     run.exercises("materials/jaumann_rate");
     std::mt19937 random(7);
     std::normal_distribution<double> normal;

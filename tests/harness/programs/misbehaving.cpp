@@ -32,6 +32,7 @@ const std::map<std::string, Problem> endings{
     {"measures_more", [](Run& run) { run.measure("length", 1.0, "mm"), run.measure("width", 1.0, "mm"); }},
     {"measures_twice", [](Run& run) { run.measure("length", 1.0, "mm"), run.measure("length", 1.0, "mm"); }},
     {"measures_seconds", [](Run& run) { run.measure("length", 1.0, "s"); }},
+    {"declares_more", [](Run& run) { run.measure("length", 1.0, "mm"), run.exercises("schemes/momentum"); }},
     {"skips", [](Run& run) { run.skip("length", "nothing to measure here"); }},
     {"skips_silently", [](Run& run) { run.skip("length", ""); }},
     {"half_result", [](Run& run) {

@@ -1,0 +1,41 @@
+// The solver's modules, and which of them have run in this process: what a case says it exercises is checked against it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <string_view>
+
+namespace furrow {
+
+enum class Module : std::size_t {
+  linear_elastic, j2_plastic, johnson_cook, johnson_cook_damage, drucker_prager, linear_eos, mie_grueneisen, jaumann_rate,
+  velocity_gradient, momentum, density, viscosity, artificial_stress, kernel_correction, quadratic_gradient, hourglass, xsph,
+  reference_frame,
+  images, neighbours,
+  wall, boundary_layer, prescribed_motion, held_face, applied_force, gravity, damping,
+  step_control, simulation,
+};
+
+/// Names as results know them, in the order of Module.
+inline constexpr std::array module_names = std::to_array<std::string_view>({
+    "materials/linear_elastic", "materials/j2_plastic", "materials/johnson_cook", "materials/johnson_cook_damage",
+    "materials/drucker_prager", "materials/linear_eos", "materials/mie_grueneisen", "materials/jaumann_rate",
+    "schemes/velocity_gradient", "schemes/momentum", "schemes/density", "schemes/viscosity", "schemes/artificial_stress",
+    "schemes/kernel_correction", "schemes/quadratic_gradient", "schemes/hourglass", "schemes/xsph", "schemes/reference_frame",
+    "particles/images", "particles/neighbours",
+    "boundaries/wall", "boundaries/boundary_layer", "boundaries/prescribed_motion", "boundaries/held_face",
+    "boundaries/applied_force", "boundaries/gravity", "boundaries/damping",
+    "integrators/step_control", "simulation",
+});
+static_assert(module_names.size() == static_cast<std::size_t>(Module::simulation) + 1);
+
+inline std::array<std::atomic<bool>, module_names.size()> modules_run{};
+
+/// Called by a module where it does its work, once a sweep and not in loops over particles.
+inline void has_run(Module module) {
+  std::atomic<bool>& flag = modules_run[static_cast<std::size_t>(module)];
+  if (!flag.load(std::memory_order_relaxed)) flag.store(true, std::memory_order_relaxed);
+}
+
+}  // namespace furrow
