@@ -1,0 +1,187 @@
+"""The command defects: plants each wrong in a scratch tree and sees which case notices."""
+
+import argparse
+import collections
+import fnmatch
+import json
+import shutil
+import sys
+from pathlib import Path
+
+from defects import kills, patches
+from defects.scratch import Tree
+from gate import baseline
+from gate.compare import TIERS
+from gate.files import ROOT, GateError, locked, read_json, write_whole
+from gate.table import cut
+from reports import results
+from reports.numbers import number
+
+OUT = ROOT / "runs" / "defects"
+WORDS = {"killed": "killed", "changed": "seen by its change alone", "survived": "SURVIVED", "equivalent": "equivalent", "error": "ERROR"}
+
+
+def parser():
+    main = argparse.ArgumentParser(prog="./furrow", add_help=False)
+    command = main.add_subparsers(dest="command", required=True).add_parser(
+        "defects", help="plant defects and see what catches them", epilog=(
+            "Each patch in tests/defects/ is applied to a copy of the commit, built, and the cases that exercise what it touches are run, "
+            "tier by tier until one is red. Killed: a metric left its band. Seen by its change alone: only a baseline tells. Exit "
+            "codes: 0 none survived, 1 one did, 2 wrong usage, 3 a patch does not apply or compile, or nobody exercises it. "
+            "Example: ./furrow defects --only 'momentum-*' --tier quick"))
+    command.add_argument("--only", action="append", default=[], metavar="GLOB", help="only defects whose name matches")
+    command.add_argument("--tier", choices=TIERS, default="nightly", help="largest tier to run (default: nightly)")
+    command.add_argument("--resume", action="store_true", help="keep what was found for the same patch and commit")
+    command.add_argument("--commit", default="HEAD", help="commit to plant them in (default: HEAD)")
+    command.add_argument("--out", type=Path, default=OUT, metavar="DIR", help="folder of the kill matrix (default: runs/defects)")
+    command.add_argument("--jobs", type=int, metavar="N", help="compilers and cases side by side (default: as many as cores)")
+    command.add_argument("--check", action="store_true", help="only see whether every patch applies")
+    command.add_argument("--patches", type=Path, default=patches.FOLDER, help=argparse.SUPPRESS)
+    return main
+
+
+def chosen(arguments):
+    found = patches.read_all(arguments.patches)
+    wanted = [d for d in found if not arguments.only or any(fnmatch.fnmatchcase(d.name, g) for g in arguments.only)]
+    if not wanted:
+        raise GateError(f"none of {len(found)} defects has such a name; 'ls {arguments.patches}' shows them")
+    return wanted
+
+
+def check(wanted):
+    """Says which patches do not apply to the working tree, and how many there are of each module."""
+    stale = [(d, why) for d in wanted if (why := patches.does_not_apply(d, ROOT))]
+    for d, why in stale:
+        print(f"{d.name}: does not apply: {why}")
+    count = collections.Counter(m for d in wanted for m in d.modules)
+    print("\n".join(f"{n:>4}  {module}" for module, n in sorted(count.items())))
+    print(f"{len(wanted)} defects, {sum(d.subtle for d in wanted)} of them subtle; {len(stale)} do not apply")
+    return 3 if stale else 0
+
+
+class Hunt:
+    def __init__(self, arguments):
+        self.out, self.resume, self.jobs = arguments.out, arguments.resume, arguments.jobs
+        self.tiers = TIERS[:TIERS.index(arguments.tier) + 1]
+        self.tree = Tree(commit=arguments.commit, jobs=arguments.jobs)
+        self.noise = baseline.read_all()
+
+    def words(self):
+        return ["--no-report", "--quiet"] + (["--jobs", str(self.jobs)] if self.jobs else [])
+
+    def prepare(self):
+        """Builds the clean tree and runs it; its cases by id."""
+        self.tree.prepare()
+        if why := self.tree.build():
+            raise GateError(f"the clean tree does not build: {why}", 3)
+        clean = self.out / "clean"
+        if not (self.resume and self._same_commit(clean)):
+            shutil.rmtree(clean, ignore_errors=True)
+        # --resume knows by the program's own bytes what may be kept
+        self.tree.run(["matrix", "--tier", self.tiers[-1], "--out", str(clean.resolve()), *self.words(), *(["--resume"] if clean.exists() else [])])
+        self.clean = {c.id: c for c in results.load(clean).cases if c.data.get("metrics")}
+        if not self.clean:
+            raise GateError("the clean tree ran no case", 3)
+
+    def _same_commit(self, folder):
+        try:
+            return read_json(folder / "run.json")["provenance"]["commit"] == self.tree.commit
+        except (OSError, ValueError, KeyError, TypeError):
+            return False
+
+    def judge(self, defect):
+        """Fate of one defect. The tree is clean before and after."""
+        def error(reason):
+            return kills.Fate(defect.name, "error", reason, hash=defect.hash, commit=self.tree.commit)
+        if why := patches.does_not_apply(defect, self.tree.folder):
+            return error(f"does not apply: {why}")
+        seen, folder = [], self.out / "spoilt"
+        with self.tree.spoilt(defect):
+            if why := self.tree.build():
+                return error(f"does not compile: {why}")
+            for tier in self.tiers:
+                cases = [c for c in self.clean.values() if c.data["tier"] == tier and defect.touches(c.data["exercises"])]
+                if not cases:
+                    continue
+                shutil.rmtree(folder, ignore_errors=True)
+                self.tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()])
+                ran = {c.id: c for c in results.load(folder).cases} if folder.exists() else {}
+                seen += [kills.seen(c, ran.get(c.id), tier, self.noise.get(c.id)) for c in cases]
+                if any(k.tier == tier and k.by == "truth" for k in seen):
+                    break
+        shutil.rmtree(folder, ignore_errors=True)
+        return kills.fate(defect, seen, self.tiers, self.tree.commit)
+
+
+def kept(path, defect, commit):
+    """The fate that an earlier hunt found for the same patch and commit; None when it has to be found again."""
+    try:
+        found = kills.from_json(read_json(path))
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return found if found.hash == defect.hash and found.commit == commit and found.state != "error" else None
+
+
+def hunt(arguments, wanted):
+    with locked(arguments.out, "defects"):
+        state = Hunt(arguments)
+        fates = arguments.out / "fates"
+        if not arguments.resume:
+            shutil.rmtree(fates, ignore_errors=True)
+        state.prepare()
+        found = []
+        for i, defect in enumerate(wanted, 1):
+            path = fates / f"{defect.name}.json"
+            fate = kept(path, defect, state.tree.commit) if arguments.resume else None
+            if fate is None:
+                fate = state.judge(defect)
+                write_whole(path, json.dumps(kills.to_json(fate), indent=1) + "\n")
+            found.append(fate)
+            print(cut(f"{i:>3}/{len(wanted)}  {line(fate)}", 130), flush=True)
+        write_whole(arguments.out / "kills.json", json.dumps(matrix(found, wanted, state)) + "\n")
+    from reports.kills import build
+    print(summary(found, wanted, state.tiers))
+    print(f"kill matrix: {build(arguments.out)}")
+    return 3 if any(f.state == "error" for f in found) else 1 if any(f.state == "survived" for f in found) else 0
+
+
+def line(fate):
+    killers = [k for k in fate.seen if k.by == ("truth" if fate.state == "killed" else "change")]
+    by = f" at {fate.tier} by {killers[0].case} {killers[0].metric}" + (f" and {len(killers) - 1} more" if len(killers) > 1 else "") \
+        if killers and fate.state in ("killed", "changed") else ""
+    return f"{WORDS[fate.state]:<10}  {fate.name}{by}{': ' + fate.reason if fate.reason else ''}"
+
+
+def matrix(found, wanted, state):
+    """What reports.kills reads, schema 1."""
+    return {"schema": 1, "commit": state.tree.commit, "tiers": list(state.tiers), "rates": kills.rates(found, state.tiers),
+            "defects": [kills.to_json(f) | {"wrong": d.wrong, "modules": d.modules, "subtle": d.subtle, "source": d.source,
+                                            "equivalent": d.equivalent} for f, d in zip(found, wanted)]}
+
+
+def summary(found, wanted, tiers):
+    count = collections.Counter(f.state for f in found)
+    lines = [", ".join(f"{count[s]} {WORDS[s]}" for s in WORDS if count[s]) + f" of {len(found)} defects"]
+    for tier, (truth, any_, alive) in kills.rates(found, tiers).items():
+        if alive:
+            lines.append(f"{tier:>8}: {number(100.0 * truth / alive, 3)} % killed by the truth, {number(100.0 * any_ / alive, 3)} % seen at all, "
+                         f"of {alive}")
+    wrong = [f.name for f, d in zip(found, wanted) if d.subtle and (f.largest_smoke_move or 0.0) > 0.05]
+    if wrong:
+        lines.append(f"not subtle after all (a smoke metric moved by more than 5 %): {', '.join(wrong)}")
+    return "\n".join(lines)
+
+
+def main(words):
+    arguments = parser().parse_args(words)
+    try:
+        wanted = chosen(arguments)
+        return check(wanted) if arguments.check else hunt(arguments, wanted)
+    except GateError as error:
+        print(f"furrow: {error}", file=sys.stderr)
+        return error.code
+    except results.ReportError as error:
+        print(f"furrow: {error}", file=sys.stderr)
+        return 3
+    except KeyboardInterrupt:
+        return 130

@@ -1,0 +1,114 @@
+"""Who killed a defect: each metric of a spoilt run against the clean one, by the rules of the gate."""
+
+import math
+from dataclasses import asdict, dataclass, field
+
+from gate import rules
+from gate.bless import accepted_of
+
+# By the truth: a metric left its band or gave no number, which needs no baseline. By the change: it moved away from the truth, and
+# only somebody who knows the number from before can see it.
+TRUTH, CHANGE = ("error", "fail", "lost"), ("away", "gap", "band", "new")
+
+
+@dataclass
+class Kill:
+    """What a case saw of a defect: its worst metric."""
+    case: str
+    tier: str
+    metric: str
+    kind: str
+    by: str               # truth, change or '' for a case that moved without being red, or not at all
+    moved: float | None   # relative to the clean value; None where there is no size
+
+
+@dataclass
+class Fate:
+    """What became of a defect."""
+    name: str
+    state: str                # killed, changed (only the change detector saw it), survived, equivalent, error
+    reason: str = ""          # of an error
+    tier: str = ""            # smallest tier that killed it by the truth, or by the change
+    hash: str = ""
+    commit: str = ""
+    largest_smoke_move: float | None = None   # relative, of any metric of the smoke tier; None without one
+    seen: list = field(default_factory=list)  # Kill of each case that ran
+
+
+def seen(clean, spoilt, tier, noise=None):
+    """Kill of one case; `clean`, `spoilt`: reports.results.Case; `noise`: the case's Baseline, for measured spreads, or None."""
+    rows = _rows(clean, spoilt, noise)
+    worst = rules.order(rows)[0]
+    by = "truth" if worst.kind in TRUTH else "change" if worst.kind in CHANGE else ""
+    return Kill(clean.id, tier, worst.metric, worst.kind, by, largest_move(rows))
+
+
+def _rows(clean, spoilt, noise):
+    if spoilt is None or spoilt.faults or not spoilt.data.get("metrics"):
+        return [rules.Row(clean.id, "", rules.RED, "error", spoilt.reason if spoilt else "it did not run", "error")]
+    known = noise.metrics if noise else {}
+    accepted = {m["name"]: accepted_of(m, known.get(m["name"])) for m, _ in clean.metrics}
+    rows = []
+    for metric, _ in spoilt.metrics:
+        before = accepted.get(metric["name"])
+        if before is not None and before.verdict in ("fail", "error"):
+            continue   # red on the clean tree: it proves nothing
+        rows.append(rules.row(clean.id, metric, before, rules.Standing(gap=before is not None and before.verdict == "known-gap")))
+    measured = {m["name"] for m, _ in spoilt.metrics}
+    rows += [rules.lost(clean.id, name, m, "not measured") for name, m in accepted.items() if name not in measured]
+    return rows or [rules.Row(clean.id, "", rules.GREEN, "skipped", "nothing of the clean case is green")]
+
+
+def largest_move(rows):
+    """Largest relative move of a metric that is not round-off; infinite where a number is gone; None where nothing has a size."""
+    if any(r.kind == "error" for r in rows):
+        return math.inf
+    moves = [abs(r.relative) for r in rows if r.change == "moved" and r.relative is not None]
+    return max(moves, default=None)
+
+
+def fate(defect, kills, tiers, commit):
+    """Fate from what each case saw, tier by tier."""
+    result = Fate(defect.name, "survived", hash=defect.hash, commit=commit, seen=kills)
+    for by, state in (("truth", "killed"), ("change", "changed")):
+        found = [t for t in tiers if any(k.tier == t and k.by == by for k in kills)]
+        if found:
+            result.state, result.tier = state, found[0]
+            break
+    smoke = [k.moved for k in kills if k.tier == "smoke" and k.moved is not None]
+    result.largest_smoke_move = max(smoke, default=None)
+    if defect.equivalent:
+        if any(k.by or k.moved for k in kills):
+            result.state, result.reason = "error", "said to be equivalent, and moves numbers"
+        else:
+            result.state = "equivalent"
+    elif not kills:
+        result.state, result.reason = "error", f"no case exercises {' or '.join(defect.modules)}"
+    return result
+
+
+def rates(fates, tiers):
+    """tier -> (killed by the truth, seen at all, defects that can be killed) counting each tier with those below it."""
+    alive = [f for f in fates if f.state in ("killed", "changed", "survived")]
+    rank = {t: i for i, t in enumerate(tiers)}
+
+    def first(f, kinds):
+        return min((rank[k.tier] for k in f.seen if k.by in kinds), default=len(tiers))
+    return {t: (sum(first(f, ("truth",)) <= i for f in alive), sum(first(f, ("truth", "change")) <= i for f in alive), len(alive))
+            for t, i in rank.items()}
+
+
+def to_json(fate):
+    data = asdict(fate)
+    for entry in (data, *data["seen"]):
+        for key in ("moved", "largest_smoke_move"):
+            if entry.get(key) is not None and not math.isfinite(entry[key]):
+                entry[key] = "infinite"
+    return data
+
+
+def from_json(data):
+    def number(x):
+        return math.inf if x == "infinite" else x
+    kills = [Kill(**{**k, "moved": number(k["moved"])}) for k in data["seen"]]
+    return Fate(**{**data, "seen": kills, "largest_smoke_move": number(data["largest_smoke_move"])})
