@@ -8,17 +8,17 @@ import subprocess
 
 from gate.files import ROOT, GateError
 
-FOLDER = ROOT / "build" / "defects"
 
-
-def _git(*words, cwd=ROOT):
+def _git(cwd, *words):
     return subprocess.run(["git", *words], cwd=cwd, capture_output=True, text=True)
 
 
 class Tree:
-    def __init__(self, folder=FOLDER, commit="HEAD", jobs=None):
-        self.folder, self.jobs = folder, jobs or os.cpu_count() or 1
-        known = _git("rev-parse", commit)
+    """Of the project in ROOT, in its build/defects."""
+
+    def __init__(self, commit="HEAD", jobs=None):
+        self.root, self.folder, self.jobs = ROOT, ROOT / "build" / "defects", jobs or os.cpu_count() or 1
+        known = _git(self.root, "rev-parse", commit)
         if known.returncode != 0:
             raise GateError(f"{commit}: no commit of this repository")
         self.commit = known.stdout.strip()
@@ -31,14 +31,14 @@ class Tree:
         """Brings the tree to its commit, whatever was left in it, and keeps what was built."""
         if (self.folder / ".git").exists():
             for words in (("reset", "-q", "--hard", self.commit), ("clean", "-q", "-fd", "-e", "build")):
-                if _git(*words, cwd=self.folder).returncode != 0:
+                if _git(self.folder, *words).returncode != 0:
                     shutil.rmtree(self.folder)
                     break
         if not (self.folder / ".git").exists():
             self.folder.parent.mkdir(parents=True, exist_ok=True)
-            done = _git("clone", "-q", "--shared", "--no-checkout", str(ROOT), str(self.folder))
+            done = _git(self.root, "clone", "-q", "--shared", "--no-checkout", str(self.root), str(self.folder))
             if done.returncode == 0:
-                done = _git("checkout", "-q", "--detach", self.commit, cwd=self.folder)
+                done = _git(self.folder, "checkout", "-q", "--detach", self.commit)
             if done.returncode != 0:
                 raise GateError(f"{self.folder}: no scratch tree: {done.stderr.strip()}", 3)
 
@@ -58,14 +58,14 @@ class Tree:
     def spoilt(self, defect):
         """The tree with the defect in it; mended afterwards."""
         patch = str(defect.path.resolve())
-        done = _git("apply", patch, cwd=self.folder)
+        done = _git(self.folder, "apply", patch)
         if done.returncode != 0:
             raise GateError(f"{defect.name}: does not apply: {(done.stderr.strip().splitlines() or [''])[-1]}", 3)
         try:
             yield
         finally:
-            _git("checkout", "-q", "--", ".", cwd=self.folder)
-            _git("clean", "-q", "-fd", "-e", "build", cwd=self.folder)
+            _git(self.folder, "checkout", "-q", "--", ".")
+            _git(self.folder, "clean", "-q", "-fd", "-e", "build")
 
     def run(self, words):
         """Exit code of the tree's own program."""
