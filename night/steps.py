@@ -26,6 +26,20 @@ def scatter(x):
     return statistics.median_low(abs(b - a) for a, b in zip(x, x[1:])) / (0.6744897501960817 * math.sqrt(2.0))
 
 
+def _misfits(z):
+    """misfit[a][b] = sum over a <= i < b of (z_i - mean)^2, by Welford's recurrence: no difference of large sums, for z may be huge."""
+    n = len(z)
+    misfit = [[0.0] * (n + 1) for _ in range(n)]
+    for a in range(n):
+        mean = squares = 0.0
+        for b in range(a, n):
+            away = z[b] - mean
+            mean += away / (b - a + 1)
+            squares += away * (z[b] - mean)
+            misfit[a][b + 1] = squares
+    return misfit
+
+
 def without_spikes(x):
     """Each value replaced by the median of itself and its neighbours (at an end, of the three there): a single spike goes, a step
     stays where it is."""
@@ -46,22 +60,14 @@ def steps(x, floor, shortest=1):
     scale = max(scatter(x), floor)
     if shortest > 1:
         x = without_spikes(x)
-    origin = x[0]
-    z = [(v - origin) / scale for v in x]
-    sums, squares = [0.0], [0.0]
-    for v in z:
-        sums.append(sums[-1] + v)
-        squares.append(squares[-1] + v * v)
-
-    def misfit(a, b):
-        s = sums[b] - sums[a]
-        return max(0.0, squares[b] - squares[a] - s * s / (b - a))
-
+    if min(x) == max(x):
+        return []
+    misfit = _misfits([(v - x[0]) / scale for v in x])
     penalty = 4.0 * math.log(max(n, 8))
     best, cut = [-penalty] + [math.inf] * n, [0] * (n + 1)
     for b in range(shortest, n + 1):
         for a in [0, *range(shortest, b - shortest + 1)]:
-            cost = best[a] + misfit(a, b) + penalty
+            cost = best[a] + misfit[a][b] + penalty
             if cost < best[b] - 1e-9 * abs(cost):
                 best[b], cut[b] = cost, a
     edges, b = [n], n

@@ -80,3 +80,8 @@ def test_scatter_does_not_see_steps():
 def test_what_is_no_number_is_refused(x, floor):
     with pytest.raises(ValueError):
         steps(x, floor)
+
+
+def test_a_step_far_above_the_floor_leaves_no_false_ones_beside_it():
+    x = [0.49437812345678] * 12 + [0.49437812345678 * 1.01] * 8
+    assert places(x, floor=1e-16) == [12]
