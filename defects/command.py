@@ -18,17 +18,18 @@ from reports import results
 from reports.numbers import number
 
 OUT = ROOT / "runs" / "defects"
-WORDS = {"killed": "killed", "changed": "seen by its change alone", "survived": "SURVIVED", "equivalent": "equivalent", "error": "ERROR"}
+WORDS = {"killed": "killed", "changed": "seen by its change alone", "survived": "SURVIVED", "equivalent": "equivalent",
+         "error": "ERROR"}
 
 
 def parser():
     main = argparse.ArgumentParser(prog="./furrow", add_help=False)
     command = main.add_subparsers(dest="command", required=True).add_parser(
         "defects", help="plant defects and see what catches them", epilog=(
-            "Each patch in tests/defects/ is applied to a copy of the commit, built, and the cases that exercise what it touches are run, "
-            "tier by tier until one is red. Killed: a metric left its band. Seen by its change alone: only a baseline tells. Exit "
-            "codes: 0 none survived, 1 one did, 2 wrong usage, 3 a patch does not apply or compile, or nobody exercises it. "
-            "Example: ./furrow defects --only 'momentum-*' --tier quick"))
+            "Each patch in tests/defects/ is applied to a copy of the commit, built, and the cases that exercise what it touches "
+            "are run, tier by tier until one is red. Killed: a metric left its band. Seen by its change alone: only a baseline "
+            "tells. Exit codes: 0 none survived, 1 one did, 2 wrong usage, 3 a patch does not apply or compile, or nobody "
+            "exercises it. Example: ./furrow defects --only 'momentum-*' --tier quick"))
     command.add_argument("--only", action="append", default=[], metavar="GLOB", help="only defects whose name matches")
     command.add_argument("--tier", choices=TIERS, default="nightly", help="largest tier to run (default: nightly)")
     command.add_argument("--resume", action="store_true", help="keep what was found for the same patch and commit")
@@ -78,7 +79,8 @@ class Hunt:
         if not (self.resume and self._same_commit(clean)):
             shutil.rmtree(clean, ignore_errors=True)
         # --resume knows by the program's own bytes what may be kept
-        self.tree.run(["matrix", "--tier", self.tiers[-1], "--out", str(clean.resolve()), *self.words(), *(["--resume"] if clean.exists() else [])])
+        self.tree.run(["matrix", "--tier", self.tiers[-1], "--out", str(clean.resolve()), *self.words(),
+                       *(["--resume"] if clean.exists() else [])])
         self.clean = {c.id: c for c in results.load(clean).cases if c.data.get("metrics")}
         if not self.clean:
             raise GateError("the clean tree ran no case", 3)
@@ -147,8 +149,10 @@ def hunt(arguments, wanted):
 
 def line(fate):
     killers = [k for k in fate.seen if k.by == ("truth" if fate.state == "killed" else "change")]
-    by = f" at {fate.tier} by {killers[0].case} {killers[0].metric}" + (f" and {len(killers) - 1} more" if len(killers) > 1 else "") \
-        if killers and fate.state in ("killed", "changed") else ""
+    by = ""
+    if killers and fate.state in ("killed", "changed"):
+        by = f" at {fate.tier} by {killers[0].case} {killers[0].metric}"
+        by += f" and {len(killers) - 1} more" if len(killers) > 1 else ""
     return f"{WORDS[fate.state]:<10}  {fate.name}{by}{': ' + fate.reason if fate.reason else ''}"
 
 
@@ -164,8 +168,8 @@ def summary(found, wanted, tiers):
     lines = [", ".join(f"{count[s]} {WORDS[s]}" for s in WORDS if count[s]) + f" of {len(found)} defects"]
     for tier, (truth, any_, alive) in kills.rates(found, tiers).items():
         if alive:
-            lines.append(f"{tier:>8}: {number(100.0 * truth / alive, 3)} % killed by the truth, {number(100.0 * any_ / alive, 3)} % seen at all, "
-                         f"of {alive}")
+            lines.append(f"{tier:>8}: {number(100.0 * truth / alive, 3)} % killed by the truth, "
+                         f"{number(100.0 * any_ / alive, 3)} % seen at all, of {alive}")
     wrong = [f.name for f, d in zip(found, wanted) if d.subtle and (f.largest_smoke_move or 0.0) > 0.05]
     if wrong:
         lines.append(f"not subtle after all (a smoke metric moved by more than 5 %): {', '.join(wrong)}")

@@ -6,8 +6,8 @@ from dataclasses import asdict, dataclass, field
 from gate import rules
 from gate.bless import accepted_of
 
-# By the truth: a metric left its band or gave no number, which needs no baseline. By the change: it moved away from the truth, and
-# only somebody who knows the number from before can see it.
+# By the truth: a metric left its band or gave no number, which needs no baseline. By the change: it moved away from the truth,
+# and only somebody who knows the number from before can see it.
 TRUTH, CHANGE = ("error", "fail", "lost"), ("away", "gap", "band", "new")
 
 

@@ -1,7 +1,7 @@
 """Patches in tests/defects/: a head of `Key: value` lines, an empty line, then the difference.
 
   Wrong: what is wrong, in a sentence             (required)
-  Module: schemes/momentum, simulation            (required; as in results' `exercises`: the cases that exercise one of them are run;
+Module: schemes/momentum, simulation            (required; as in results' `exercises`: cases that exercise one of them are run;
                                                    `harness/...`: all cases are)
   Subtle: yes                                     (required: yes or no; yes: no smoke metric moves by more than 5 %)
   Source: the paper's Eq. 21                      (optional: who printed or made this wrong)
@@ -57,7 +57,8 @@ def read(path):
         raise GateError(f"{path}: Subtle is yes or no, and not {fields['Subtle']!r}")
     if not difference.startswith("diff --git "):
         raise GateError(f"{path}: an empty line and 'diff --git ...' come after the head")
-    return Defect(path.stem, path, fields["Wrong"], tuple(m.strip() for m in fields["Module"].split(",")), fields["Subtle"] == "yes",
+    return Defect(path.stem, path, fields["Wrong"], tuple(m.strip() for m in fields["Module"].split(",")),
+                  fields["Subtle"] == "yes",
                   fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(text.encode()).hexdigest())
 
 

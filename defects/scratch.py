@@ -1,5 +1,5 @@
-"""A scratch tree: a copy of one commit that is built, spoilt by a patch, built again and mended. One compiler cache serves them all,
-and only what a patch changes is compiled."""
+"""A scratch tree: a copy of one commit that is built, spoilt by a patch, built again and mended. One compiler cache serves them
+all, and only what a patch changes is compiled."""
 
 import contextlib
 import os
@@ -45,7 +45,8 @@ class Tree:
     def build(self):
         """'' when the program was built, else the compiler's last words."""
         environment = os.environ | {"CCACHE_BASEDIR": str(self.folder.parent), "CCACHE_NOHASHDIR": "1"}
-        for words in (["cmake", "--preset", "release"], ["cmake", "--build", "--preset", "release", "--target", "furrow-program", "-j", str(self.jobs)]):
+        for words in (["cmake", "--preset", "release"],
+                      ["cmake", "--build", "--preset", "release", "--target", "furrow-program", "-j", str(self.jobs)]):
             if words[1] == "--preset" and (self.folder / "build/release/build.ninja").exists():
                 continue
             done = subprocess.run(words, cwd=self.folder, env=environment, capture_output=True, text=True)

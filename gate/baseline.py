@@ -1,8 +1,9 @@
 """Baselines: what was accepted of a case, one file a case in reference/baselines/<family>/<case>.json.
 
-A line a metric, so that a difference of two commits reads as a list of what moved. Numbers are the shortest decimals that give the
-same bits again, so that equality can be asked. Beside values stand what a change is judged by: reference and its uncertainty, band,
-the spread that was measured without a cause (noise) and from how many runs; and a few points of each curve, for the eye alone.
+A line a metric, so that a difference of two commits reads as a list of what moved. Numbers are the shortest decimals that give
+the same bits again, so that equality can be asked. Beside values stand what a change is judged by: reference and its uncertainty,
+band, the spread that was measured without a cause (noise) and from how many runs; and a few points of each curve, for the eye
+alone.
 """
 
 import json
@@ -50,7 +51,8 @@ def text_of(baseline):
     head = {k: getattr(baseline, k) for k in ("case", "tier", "commit", "date", "inputs", "exercises")}
     lines = [f' "schema": {SCHEMA},'] + [f" {json.dumps(k)}: {json.dumps(v)}," for k, v in head.items()]
     lines.append(' "metrics": {')
-    lines += _joined(f"  {json.dumps(name)}: {json.dumps(asdict(m), allow_nan=False)}" for name, m in sorted(baseline.metrics.items()))
+    lines += _joined(f"  {json.dumps(name)}: {json.dumps(asdict(m), allow_nan=False)}"
+                     for name, m in sorted(baseline.metrics.items()))
     lines.append(' },')
     lines.append(' "curves": {')
     lines += _joined(f"  {json.dumps(figure)}: {{\n" + "\n".join(_joined(f"   {json.dumps(label)}: {json.dumps(points)}"
@@ -92,7 +94,8 @@ def parse(data, case):
             if accepted.spread is not None and accepted.spread < 0.0:
                 raise ValueError(f"spread of {name} is negative")
             metrics[name] = accepted
-        return Baseline(case, data["tier"], data["commit"], data["date"], data["inputs"], metrics, data["exercises"], data["curves"])
+        return Baseline(case, data["tier"], data["commit"], data["date"], data["inputs"], metrics, data["exercises"],
+                        data["curves"])
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"incomplete: {error}") from None
 

@@ -1,10 +1,10 @@
 """Which modules a red gate points to: the smallest set that covers the cases that moved and spares those that did not.
 
 Each case exercises modules. If a set of modules is to blame, every case that is red must exercise one of them, and a case that
-exercises one and did not move speaks against it, though weakly: it may be blind to what is wrong. So a set costs SPARING for every
-module in it and one for every unmoved case it touches, and the cheapest set that covers all reds is named: exactly, by branch and
-bound, up to MOST_GROUPS modules that can be told apart; greedily beyond. Modules that the same cases exercise cannot be told apart
-and are named together. Of sets of equal cost the smaller is taken, then the first in the alphabet.
+exercises one and did not move speaks against it, though weakly: it may be blind to what is wrong. So a set costs SPARING for
+every module in it and one for every unmoved case it touches, and the cheapest set that covers all reds is named: exactly, by
+branch and bound, up to MOST_GROUPS modules that can be told apart; greedily beyond. Modules that the same cases exercise cannot
+be told apart and are named together. Of sets of equal cost the smaller is taken, then the first in the alphabet.
 """
 
 from dataclasses import dataclass

@@ -33,7 +33,8 @@ def _chosen(run, globs):
     for glob in globs:
         found = [c for c in run.cases if fnmatch.fnmatchcase(c.id, glob)]
         if not found:
-            raise GateError(f"{glob}: the run has no such case; it ran {len(run.cases)}, such as {run.cases[0].id if run.cases else 'none'}")
+            example = f", such as {run.cases[0].id}" if run.cases else ""
+            raise GateError(f"{glob}: the run has no such case; it ran {len(run.cases)}{example}")
         chosen |= {c.id: c for c in found}
     return list(chosen.values())
 
@@ -77,7 +78,8 @@ def _accept(case, before, reason, expires, folder, who):
 
 
 def _entries(case, known, new, reason, expires, who):
-    moved = {name: [known[name].value, m.value] for name, m in new.metrics.items() if name in known and known[name].value != m.value}
+    moved = {name: [known[name].value, m.value] for name, m in new.metrics.items()
+             if name in known and known[name].value != m.value}
     added = sorted(new.metrics.keys() - known.keys())
     gone = sorted(known.keys() - new.metrics.keys())
     yield (ledger.entry("value", who, new.commit, reason, case=case.id, moved=moved, added=len(added), gone=gone),

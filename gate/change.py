@@ -32,7 +32,8 @@ def same_bits(a, b):
 def allowance(value, reference, unit, spread):
     """How far a metric may move without a cause: three measured spreads, and never less than round-off of its scale.
 
-    The scale is the reference where there is one; an error of a pure number, whose reference is zero, is one of numbers of size 1.
+    The scale is the reference where there is one; an error of a pure number, whose reference is zero, is one of numbers of size
+    1.
     """
     if reference:
         scale = max(abs(reference), abs(value))

@@ -19,6 +19,6 @@ def _end_with_parent():
 
 
 def run(arguments):
-    """Exit code of the program; negative or 130 when it was stopped. It ends when this process does, even by kill -9, and leaves a
-    run that can be resumed."""
+    """Exit code of the program; negative or 130 when it was stopped. It ends when this process does, even by kill -9, and leaves
+    a run that can be resumed."""
     return subprocess.run([program(), *arguments], preexec_fn=_end_with_parent).returncode

@@ -20,10 +20,10 @@ def parser():
     commands = main.add_subparsers(dest="command", required=True)
 
     gate = commands.add_parser("gate", help="compare a run with the accepted baselines", epilog=(
-        "Exit codes: 0 nothing red, 1 red, 2 wrong usage or a broken baseline, 3 a case ended as error. Red: a metric outside its "
-        "band that was inside when accepted, a move away from the truth, a new or lost metric, an error, a loosened band or known "
-        "gap that the ledger does not record or whose time is over. A move toward the truth, or one that no reference can judge, "
-        "is yellow: it asks for a blessing. Example: ./furrow gate --tier smoke"))
+        "Exit codes: 0 nothing red, 1 red, 2 wrong usage or a broken baseline, 3 a case ended as error. Red: a metric outside "
+        "its band that was inside when accepted, a move away from the truth, a new or lost metric, an error, a loosened band or "
+        "known gap that the ledger does not record or whose time is over. A move toward the truth, or one that no reference can "
+        "judge, is yellow: it asks for a blessing. Example: ./furrow gate --tier smoke"))
     gate.add_argument("run", nargs="?", type=Path, metavar="RUN", help="folder of a run; without it, the tier is run")
     gate.add_argument("--tier", choices=TIERS, default=None, help="tier to run (default: quick)")
     gate.add_argument("--only", action="append", default=[], metavar="GLOB", help="only cases whose id matches")
@@ -36,16 +36,18 @@ def parser():
     gate.add_argument("--quiet", action="store_true", help="print the last line alone")
 
     bless = commands.add_parser("bless", help="accept cases of a run as baselines", epilog=(
-        "Refused: a case that failed or ended as error, a run from a dirty tree, an empty reason. A loosened band or a new known gap "
-        "is recorded with its expiry. Example: ./furrow bless runs/latest 'kernel/*' --reason 'closed form corrected, see commit'"))
+        "Refused: a case that failed or ended as error, a run from a dirty tree, an empty reason. A loosened band or a new known "
+        "gap is recorded with its expiry. Example: ./furrow bless runs/latest 'kernel/*' --reason 'closed "
+        "form corrected, see commit'"))
     bless.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
     bless.add_argument("cases", nargs="+", metavar="CASE", help="ids of cases, or patterns")
     bless.add_argument("--reason", required=True, metavar="TEXT", help="why these numbers are the right ones now")
     bless.add_argument("--expires", type=_day, metavar="DATE", help="of a loosened band or known gap (default: in half a year)")
 
     measure = commands.add_parser("noise", help="measure how far metrics move without a cause", epilog=(
-        "Takes two or more runs of one commit that are equally right (other compiler, optimisation, --particle-order) and keeps each "
-        "metric's spread with its baseline. Example: ./furrow noise runs/a runs/b runs/c --reason 'g++ and clang++, two orders'"))
+        "Takes two or more runs of one commit that are equally right (other compiler, optimisation, --particle-order) and keeps "
+        "each metric's spread with its baseline. Example: ./furrow noise runs/a runs/b runs/c --reason 'g++ and "
+        "clang++, two orders'"))
     measure.add_argument("runs", nargs="+", type=Path, metavar="RUN", help="folders of runs")
     measure.add_argument("--reason", required=True, metavar="TEXT", help="what the runs differ in")
 

@@ -47,7 +47,8 @@ def compare(run, baselines, entries, today=None, only_known=False):
         if case.data.get("overrides"):
             notes.append(f"{case.id} ran with {', '.join(case.data['overrides'])}.")
     if changed_inputs:
-        notes.append(f"{changed_inputs} case{'s' * (changed_inputs > 1)} with other input than accepted (case file, material or data).")
+        notes.append(f"{changed_inputs} case{'s' * (changed_inputs > 1)} with other input than accepted (case file, material, "
+                     "data).")
     if not only_known:
         rows += [rules.lost(case, name, metric, "the case did not run") for case in missing(run, baselines)
                  for name, metric in baselines[case].metrics.items()]

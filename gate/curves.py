@@ -1,7 +1,7 @@
 """A few points of what a case computed, kept with its baseline so that the report can lay the accepted curve under the new one.
 
-Kept small on purpose: figures of kind `lines` alone, at most MOST_SERIES computed series a case, POINTS points each, four digits. They
-are for the eye; no verdict rests on them.
+Kept small on purpose: figures of kind `lines` alone, at most MOST_SERIES computed series a case, POINTS points each, four digits.
+They are for the eye; no verdict rests on them.
 """
 
 import math

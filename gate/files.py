@@ -80,7 +80,8 @@ def locked(folder, what):
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             file.seek(0)
-            raise GateError(f"{folder}: {file.read().strip() or 'another process'} works there; try again when it has ended") from None
+            other = file.read().strip() or "another process"
+            raise GateError(f"{folder}: {other} works there; try again when it has ended") from None
         file.truncate(0)
         file.write(f"{what}, process {os.getpid()}")
         file.flush()

@@ -1,8 +1,8 @@
 """The ledger: who accepted what, when, at which commit, and why. One line of JSON an entry, never changed, only added to.
 
 Kinds: `value` (a blessing of a case), `noise` (a measurement of noise), and the concessions `band` (a band was loosened) and
-`known-gap` (a red is let through). A concession has an expiry; from that day on it is red until somebody records it anew, or until
-the band is as tight as before and the gap is gone: that is seen in the results and needs no entry.
+`known-gap` (a red is let through). A concession has an expiry; from that day on it is red until somebody records it anew, or
+until the band is as tight as before and the gap is gone: that is seen in the results and needs no entry.
 """
 
 import datetime

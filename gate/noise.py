@@ -1,6 +1,6 @@
-"""Noise: how far each metric moves without a cause. Measured from runs of one commit that are equally right: other compilers, other
-optimisation, other orders of particles. Its spread, largest less smallest, is kept with the baseline; a change may be three times
-that (gate.change)."""
+"""Noise: how far each metric moves without a cause. Measured from runs of one commit that are equally right: other compilers,
+other optimisation, other orders of particles. Its spread, largest less smallest, is kept with the baseline; a change may be three
+times that (gate.change)."""
 
 import math
 
@@ -17,8 +17,8 @@ def variant(run):
 
 
 def spreads(runs):
-    """case -> metric -> (spread, runs). GateError when the runs are not of one clean commit; a case counts with the runs that have
-    it, and is left out with fewer than two, or where an input differs."""
+    """case -> metric -> (spread, runs). GateError when the runs are not of one clean commit; a case counts with the runs that
+    have it, and is left out with fewer than two, or where an input differs."""
     commits = {str(r.provenance.get("commit", "unknown")) for r in runs}
     if len(runs) < 2:
         raise GateError("noise is a difference: it takes two runs or more")
@@ -39,8 +39,9 @@ def spreads(runs):
         values = {}
         for member in members:
             for metric, _ in member.metrics:
-                if isinstance(metric["value"], (int, float)) and math.isfinite(metric["value"]) and metric["verdict"] != "skipped":
-                    values.setdefault(metric["name"], []).append(metric["value"])
+                value = metric["value"]
+                if isinstance(value, (int, float)) and math.isfinite(value) and metric["verdict"] != "skipped":
+                    values.setdefault(metric["name"], []).append(value)
         result[case] = {name: (max(v) - min(v), len(v)) for name, v in values.items() if len(v) >= 2}
     return result
 

@@ -1,4 +1,5 @@
-"""What a gate leaves in RUN/gate/: gate.json for programs, JUnit, a summary in Markdown, annotations for a merge request, curves."""
+"""What a gate leaves in RUN/gate/: gate.json for programs, JUnit, a summary in Markdown, annotations for a merge request,
+curves."""
 
 import json
 from xml.sax.saxutils import quoteattr
@@ -56,7 +57,8 @@ def junit(comparison):
             words = quoteattr(_clean(" ".join(part for part in (r.why, table.numbers_of(r), table.moved_words(r)) if part)))
             inner = {RED: f"<{'error' if r.kind == 'error' else 'failure'} type={quoteattr(r.kind)} message={words}/>",
                      YELLOW: f"<skipped message={words}/>", GREEN: ""}[r.colour]
-            tests.append(f"  <testcase classname={quoteattr(_clean(case))} name={quoteattr(_clean(r.metric or 'case'))}>{inner}</testcase>")
+            name = quoteattr(_clean(r.metric or "case"))
+            tests.append(f"  <testcase classname={quoteattr(_clean(case))} name={name}>{inner}</testcase>")
         suites.append(f" <testsuite name={quoteattr(_clean(case))} {_totals(rows)}>\n" + "\n".join(tests) + "\n </testsuite>")
     return (f'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites name="furrow gate" {_totals(comparison.rows)}>\n'
             + "\n".join(suites) + "\n</testsuites>\n")
@@ -80,15 +82,16 @@ def markdown(run, comparison):
         lines += ["| | case | metric | accepted | now | change | why |", "| --- | --- | --- | ---: | ---: | ---: | --- |"]
         for r in shown[:table.MOST_ROWS]:
             old, new = ("–" if x is None else f"{number(x, 6)} {unit(r.unit)}".strip() for x in (r.accepted, r.value))
-            lines.append("| " + " | ".join([r.colour, cell(r.case), cell(r.metric), old, new, table.moved_words(r), cell(r.why)]) + " |")
+            lines.append("| " + " | ".join([r.colour, cell(r.case), cell(r.metric), old, new, table.moved_words(r),
+                                            cell(r.why)]) + " |")
         if len(shown) > table.MOST_ROWS:
             lines.append(f"\nand {len(shown) - table.MOST_ROWS} more.")
         lines.append("")
     lines += [cell(line).strip() + "  " for line in table.blame_lines(comparison)]
     if comparison.concessions:
         lines += ["", "On the ledger:", ""]
-        lines += [f"- {c.kind} {cell(c.case)} `{c.metric}` until {c.expires}{' (**expired**)' if c.expired else ''}: {cell(c.reason)}"
-                  for c in comparison.concessions]
+        lines += [f"- {c.kind} {cell(c.case)} `{c.metric}` until {c.expires}{' (**expired**)' if c.expired else ''}: "
+                  f"{cell(c.reason)}" for c in comparison.concessions]
     lines += ["", *comparison.notes]
     return "\n".join(lines).rstrip() + "\n"
 

@@ -63,8 +63,8 @@ def blame_lines(comparison):
 
 
 def table(comparison, width=100, all_rows=False, colour=False):
-    """Text of at most `width` columns: rows that are not green (all of them with `all_rows`, else the worst), then what they point
-    to, then what is conceded."""
+    """Text of at most `width` columns: rows that are not green (all of them with `all_rows`, else the worst), then what they
+    point to, then what is conceded."""
     shown = [(r, 1) for r in comparison.rows] if all_rows else _folded([r for r in comparison.rows if r.colour != GREEN])
     left_out = 0 if all_rows else sum(n for _, n in shown[MOST_ROWS:])
     shown = shown if all_rows else shown[:MOST_ROWS]
@@ -81,8 +81,9 @@ def table(comparison, width=100, all_rows=False, colour=False):
     lines += [cut(line, width) for line in blame_lines(comparison)]
     open_ones = comparison.concessions
     if open_ones:
-        lines.append(f"{len(open_ones)} concession{'s' * (len(open_ones) > 1)} on the ledger; the next ends on {open_ones[0].expires}: "
-                     f"{open_ones[0].case} {open_ones[0].metric}"[:width])
+        first = open_ones[0]
+        lines.append(cut(f"{len(open_ones)} concession{'s' * (len(open_ones) > 1)} on the ledger; the next ends on "
+                         f"{first.expires}: {first.case} {first.metric}", width))
     lines += [cut(note, width) for note in comparison.notes]
     lines.append(cut(headline(comparison), width))
     return "\n".join(lines)

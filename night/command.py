@@ -21,8 +21,9 @@ def parser():
     commands = main.add_subparsers(dest="command", required=True)
 
     nightly = commands.add_parser("nightly", help="run the nightly tier, keep the history, report", epilog=(
-        "Prints one screen of text for mail or chat. Exit codes as of gate: 0 nothing red, 1 red, 2 wrong usage or a broken baseline, "
-        "3 a case ended as error or the history could not be written, 130 interrupted. examples/nightly.cron runs it every night. Example: ./furrow nightly"))
+        "Prints one screen of text for mail or chat. Exit codes as of gate: 0 nothing red, 1 red, 2 wrong usage or a broken "
+        "baseline, 3 a case ended as error or the history could not be written, 130 interrupted. examples/nightly.cron runs it "
+        "every night. Example: ./furrow nightly"))
     nightly.add_argument("--tier", choices=TIERS, default="nightly", help="tier to run (default: nightly)")
     nightly.add_argument("--only", action="append", default=[], metavar="GLOB", help="only cases whose id matches")
     nightly.add_argument("--out", type=Path, metavar="DIR", help="folder of the run (default: runs/<date>-<time>-nightly)")
@@ -32,15 +33,17 @@ def parser():
     nightly.add_argument("--no-report", action="store_true", help="leave the report out")
 
     history = commands.add_parser("history", help="what was measured, night by night", epilog=(
-        "Without a name, the nights. With one, every series whose name <case>/<metric> or <case>/cpu_s matches: its course, its steps, "
-        "and the first commit after each. Example: ./furrow history 'taylor-bar/*/final_length'"))
+        "Without a name, the nights. With one, every series whose name <case>/<metric> or <case>/cpu_s matches: its course, "
+        "its steps, and the first commit after each. Example: ./furrow history 'taylor-bar/*/final_length'"))
     history.add_argument("metric", nargs="?", metavar="METRIC", help="name of a series, or a pattern")
     history.add_argument("--steps", action="store_true", help="only series that stepped, the latest step first")
-    history.add_argument("--last", type=int, default=series.SHOWN, metavar="N", help=f"nights to look at (default: {series.SHOWN})")
+    history.add_argument("--last", type=int, default=series.SHOWN, metavar="N",
+                         help=f"nights to look at (default: {series.SHOWN})")
     history.add_argument("--add", type=Path, nargs="+", metavar="RUN", help="add runs that are there to the history")
     history.add_argument("--json", action="store_true", help="as JSON")
     for command in (nightly, history):
-        command.add_argument("--history", type=Path, default=store.FILE, metavar="FILE", help="the SQLite file (default: runs/history.sqlite)")
+        command.add_argument("--history", type=Path, default=store.FILE, metavar="FILE",
+                             help="the SQLite file (default: runs/history.sqlite)")
         command.add_argument("--baselines", type=Path, default=baseline.FOLDER, help=argparse.SUPPRESS)
     return main
 
@@ -133,7 +136,8 @@ def the_nights(nights, counts):
     """A line a night, the latest last."""
     lines = [f"{'began':<16}  {'commit':<9} {'tier':<8} {'pass':>5} {'fail':>5} {'error':>5} {'gap':>4}  {'CPU':>12}  folder"]
     for n, c in zip(nights, counts):
-        lines.append(f"{n.started[:16].replace('T', ' '):<16}  {n.commit[:8]}{'*' if n.dirty else ' '} {n.tier or '':<8} {c.get('pass', 0):>5} "
+        began = n.started[:16].replace("T", " ")
+        lines.append(f"{began:<16}  {n.commit[:8]}{'*' if n.dirty else ' '} {n.tier or '':<8} {c.get('pass', 0):>5} "
                      f"{c.get('fail', 0):>5} {c.get('error', 0):>5} {c.get('known-gap', 0):>4}  {duration(n.cpu_s):>12}  {n.folder}")
     return "\n".join(lines + (["* dirty tree"] if any(n.dirty for n in nights) else []))
 
@@ -147,7 +151,8 @@ def course(s, nights):
 
 
 def one_by_one(s, nights):
-    return "\n".join(f"  {nights[p].started[:16].replace('T', ' ')}  {nights[p].commit[:8]}  {v!r}" for p, v in zip(s.places, s.values))
+    return "\n".join(f"  {nights[p].started[:16].replace('T', ' ')}  {nights[p].commit[:8]}  {v!r}"
+                     for p, v in zip(s.places, s.values))
 
 
 def main(words):

@@ -1,10 +1,11 @@
 """Steps of a series: the piecewise constant fit with the least penalised squares.
 
-Of all ways to cut x_1 .. x_n into segments, the one with the least sum over segments of sum (x - mean)^2 / sigma^2, plus a penalty
-for each cut: Jackson et al., An algorithm for optimal partitioning of data on an interval, IEEE Signal Processing Letters 12 (2005)
-105. The penalty is twice that of the Bayesian information criterion for place and height of a cut, 2 log n: of a hundred series of
-pure noise one or two show a step. sigma comes from first differences by their median (steps are few and do not count in it), and
-is never taken below `floor`: numbers that a program computes without noise are equal until somebody changes the program.
+Of all ways to cut x_1 .. x_n into segments, the one with the least sum over segments of sum (x - mean)^2 / sigma^2, plus a
+penalty for each cut: Jackson et al., An algorithm for optimal partitioning of data on an interval, IEEE Signal Processing Letters
+12 (2005) 105. The penalty is twice that of the Bayesian information criterion for place and height of a cut, 2 log n: of a
+hundred series of pure noise one or two show a step. sigma comes from first differences by their median (steps are few and do not
+count in it), and is never taken below `floor`: numbers that a program computes without noise are equal until somebody changes the
+program.
 """
 
 import math
@@ -27,7 +28,8 @@ def scatter(x):
 
 
 def _misfits(z):
-    """misfit[a][b] = sum over a <= i < b of (z_i - mean)^2, by Welford's recurrence: no difference of large sums, for z may be huge."""
+    """misfit[a][b] = sum over a <= i < b of (z_i - mean)^2, by Welford's recurrence: no difference of large sums, for z may be
+    huge."""
     n = len(z)
     misfit = [[0.0] * (n + 1) for _ in range(n)]
     for a in range(n):
@@ -50,8 +52,8 @@ def without_spikes(x):
 
 
 def steps(x, floor, shortest=1):
-    """Steps of the values x. `floor` > 0: the least standard deviation that a value may be thought to have. `shortest`: values that
-    a segment must have; with more than one, single spikes are taken out first."""
+    """Steps of the values x. `floor` > 0: the least standard deviation that a value may be thought to have. `shortest`: values
+    that a segment must have; with more than one, single spikes are taken out first."""
     n = len(x)
     if n < 2 * shortest:
         return []

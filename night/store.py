@@ -1,6 +1,7 @@
 """The history: one SQLite file with every metric and cost of every run that was added.
 
-A run is added in one transaction of a write-ahead log: after a kill it is there or it is not. Two nights at once wait for each other.
+A run is added in one transaction of a write-ahead log: after a kill it is there or it is not. Two nights at once wait for each
+other.
 """
 
 import contextlib
@@ -16,11 +17,12 @@ VERSION = 1
 PATIENCE = 60.0   # s that one writer waits for another
 
 TABLES = """
-CREATE TABLE runs (id INTEGER PRIMARY KEY, folder TEXT NOT NULL, commit_id TEXT NOT NULL, dirty INTEGER NOT NULL, started TEXT NOT NULL,
-  tier TEXT, exit_code INTEGER, compiler TEXT, flags TEXT, cpu TEXT, threads INTEGER, wall_s REAL, cpu_s REAL,
-  UNIQUE (folder, commit_id, started));
-CREATE TABLE cases (run INTEGER NOT NULL REFERENCES runs ON DELETE CASCADE, case_id TEXT NOT NULL, verdict TEXT NOT NULL, inputs TEXT,
-  wall_s REAL, cpu_s REAL, steps INTEGER, particles INTEGER, peak_rss_bytes INTEGER, PRIMARY KEY (run, case_id)) WITHOUT ROWID;
+CREATE TABLE runs (id INTEGER PRIMARY KEY, folder TEXT NOT NULL, commit_id TEXT NOT NULL, dirty INTEGER NOT NULL,
+  started TEXT NOT NULL, tier TEXT, exit_code INTEGER, compiler TEXT, flags TEXT, cpu TEXT, threads INTEGER,
+  wall_s REAL, cpu_s REAL, UNIQUE (folder, commit_id, started));
+CREATE TABLE cases (run INTEGER NOT NULL REFERENCES runs ON DELETE CASCADE, case_id TEXT NOT NULL, verdict TEXT NOT NULL,
+  inputs TEXT, wall_s REAL, cpu_s REAL, steps INTEGER, particles INTEGER, peak_rss_bytes INTEGER,
+  PRIMARY KEY (run, case_id)) WITHOUT ROWID;
 CREATE TABLE metrics (run INTEGER NOT NULL REFERENCES runs ON DELETE CASCADE, case_id TEXT NOT NULL, metric TEXT NOT NULL,
   unit TEXT NOT NULL, value REAL, error REAL, verdict TEXT NOT NULL, PRIMARY KEY (run, case_id, metric)) WITHOUT ROWID;
 CREATE INDEX metrics_by_name ON metrics (case_id, metric, run);
@@ -44,8 +46,8 @@ class Night:
 
 
 def broken(path, error):
-    return GateError(f"{path}: the history is broken ({error}); it was left as it is. Move it away, and './furrow history --add RUN...' "
-                     "builds a new one from the folders of runs", 3)
+    return GateError(f"{path}: the history is broken ({error}); it was left as it is. Move it away, and "
+                     "'./furrow history --add RUN...' builds a new one from the folders of runs", 3)
 
 
 @contextlib.contextmanager
@@ -155,5 +157,6 @@ def values(connection, runs):
             found.setdefault((case, name), (UNITS[name], "cost", []))[2].append((place[run], value))
     for run in runs:
         if run.cpu_s is not None:
-            found.setdefault((f"run-{run.tier}" if run.tier else "run", "cpu_s"), ("s", "cost", []))[2].append((place[run.id], run.cpu_s))
+            whole = (f"run-{run.tier}" if run.tier else "run", "cpu_s")
+            found.setdefault(whole, ("s", "cost", []))[2].append((place[run.id], run.cpu_s))
     return {key: (unit, kind, sorted(points)) for key, (unit, kind, points) in found.items()}

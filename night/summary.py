@@ -20,7 +20,8 @@ def text(run, comparison, all_series, nights, report, faults=()):
             f"{len(run.cases)} cases: {count['pass']} pass, {count['fail']} fail, {count['error']} error, "
             f"{count['known-gap']} known gap", table.headline(comparison) + "."]
     cost = cost_words(run, all_series)
-    tail = ([cost] if cost else []) + [line for fault in faults for line in textwrap.wrap(f"furrow: {fault}", WIDTH)] + ([f"report: {report}"] if report else [])
+    wrong = [line for fault in faults for line in textwrap.wrap(f"furrow: {fault}", WIDTH)]
+    tail = ([cost] if cost else []) + wrong + ([f"report: {report}"] if report else [])
     middle = _rows(comparison) + _tonight(all_series, nights)
     room = LINES - len(head) - len(tail)
     if len(middle) > room:

@@ -1,5 +1,5 @@
-"""What the gate wrote about a run: how each metric moved since the accepted baseline. Read from RUN/gate/; a run that nobody compared
-has none of it."""
+"""What the gate wrote about a run: how each metric moved since the accepted baseline. Read from RUN/gate/; a run that nobody
+compared has none of it."""
 
 from dataclasses import dataclass, field
 
@@ -66,7 +66,8 @@ def part(row):
 
 
 def overlaid(figure, accepted):
-    """A figure of kind lines with the accepted curves under the computed ones. `accepted`: Changes.curves of the case, or None."""
+    """A figure of kind lines with the accepted curves under the computed ones. `accepted`: Changes.curves of the case, or
+    None."""
     curves = (accepted or {}).get("figures", {}).get(figure["name"], {})
     old = [{"label": f"{s['label']}, accepted {accepted['commit'][:8]}", "role": "accepted", **curves[s["label"]]}
            for s in figure["series"] if s["role"] == "computed" and s["label"] in curves]

@@ -29,7 +29,8 @@ def build(folder):
     cases = sorted({k["case"] for d in defects for k in d["seen"] if k["by"]})
     order = {"error": 0, "survived": 1, "changed": 2, "killed": 3, "equivalent": 4}
     (page / "index.html").write_text(environment.get_template("kills.html").render(
-        defects=sorted(defects, key=lambda d: (order[d["state"]], d["modules"], d["name"])), tiers=tiers, rates=data["rates"], commit=data["commit"],
+        defects=sorted(defects, key=lambda d: (order[d["state"]], d["modules"], d["name"])), tiers=tiers, rates=data["rates"],
+        commit=data["commit"],
         cases=cases, words=WORDS, colours=COLOURS, moved=moved, number=numbers.number, root=""), encoding="utf-8")
     return page / "index.html"
 

@@ -209,7 +209,8 @@ def _write(run, work, jobs):
         duration=numbers.duration, ladders_of=ladder.ladders_of, band_words=view.band_words, error_words=view.error_words,
         bar=view.bar, flatten=view.flatten, expiry=view.expiry, when=view.when, spacing_words=view.spacing_words,
         common_rung=view.common_rung, change_words=changes.words, change_part=changes.part,
-        sparkline=trends.sparkline, trend_name=trends.name, trend_last=trends.last, is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
+        sparkline=trends.sparkline, trend_name=trends.name, trend_last=trends.last,
+        is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run),
               "compared": compared, "changes": since, "trends": course}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")

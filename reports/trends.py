@@ -1,4 +1,5 @@
-"""The course of metrics and costs over the nights, as the night wrote it beside the run (RUN/history.json): sparklines and steps."""
+"""The course of metrics and costs over the nights, as the night wrote it beside the run (RUN/history.json): sparklines and
+steps."""
 
 import math
 from dataclasses import dataclass, field
@@ -50,13 +51,16 @@ def load(folder):
 
 
 def name(series):
-    return COST_WORDS.get(series["name"], numbers.words(series["name"])) if series["kind"] == "cost" else numbers.words(series["name"])
+    words = COST_WORDS if series["kind"] == "cost" else {}
+    return words.get(series["name"], numbers.words(series["name"]))
 
 
 def last(series):
     if series["name"] == "peak_rss_bytes":
         return numbers.size(series["values"][-1])
-    return numbers.duration(series["values"][-1]) if series["kind"] == "cost" else numbers.quantity(series["values"][-1], series["unit"])
+    if series["kind"] == "cost":
+        return numbers.duration(series["values"][-1])
+    return numbers.quantity(series["values"][-1], series["unit"])
 
 
 def sparkline(series, nights):
@@ -77,9 +81,10 @@ def sparkline(series, nights):
     for place, value in zip(places, values):
         path += f"{'L' if previous is not None and place == previous + 1 else 'M'}{x(place):.1f} {y(value):.1f}"
         previous = place
-    ticks = "".join(f'<line class="step" x1="{x(places[s["index"]]):.1f}" x2="{x(places[s["index"]]):.1f}" y1="1" y2="{HEIGHT - 1:g}"/>'
-                    for s in series["steps"])
+    ticks = "".join(f'<line class="step" x1="{at:.1f}" x2="{at:.1f}" y1="1" y2="{HEIGHT - 1:g}"/>'
+                    for at in (x(places[s["index"]]) for s in series["steps"]))
     count = len(series["steps"])
     said = f"{len(values)} nights, last {last(series)}" + (f", {count} step{'s' if count > 1 else ''}" if count else ", no step")
-    return Markup(f'<svg class="spark" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img" aria-label="{escape(said)}"><title>{escape(said)}</title>'
+    return Markup(f'<svg class="spark" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img" aria-label="{escape(said)}">'
+                  f'<title>{escape(said)}</title>'
                   f'{ticks}<path d="{path}"/><circle cx="{x(places[-1]):.1f}" cy="{y(values[-1]):.1f}" r="2.4"/></svg>')

@@ -1,4 +1,5 @@
-"""A browser over the WebDriver protocol (W3C WebDriver; Debian's chromium-driver), with no other package than the standard library."""
+"""A browser over the WebDriver protocol (W3C WebDriver; Debian's chromium-driver), with no other package than the standard
+library."""
 
 import json
 import re
@@ -21,10 +22,12 @@ class Browser:
                 break
         arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
                      "--disable-background-networking", "--disable-component-update"]
-        options = {"args": arguments, "mobileEmulation": {"deviceMetrics": {"width": width, "height": height, "pixelRatio": 2.0}}} \
-            if width < 600 else {"args": [*arguments, f"--window-size={width},{height}"]}
+        options = {"args": [*arguments, f"--window-size={width},{height}"]}
+        if width < 600:
+            options["mobileEmulation"] = {"deviceMetrics": {"width": width, "height": height, "pixelRatio": 2.0}}
         found = self._ask("POST", "/session", {"capabilities": {"alwaysMatch": {
-            "browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}}})
+            "browserName": "chrome", "goog:chromeOptions": options,
+            "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}}})
         self.session = f"/session/{found['sessionId']}"
 
     def _ask(self, method, path, body=None):
@@ -59,11 +62,13 @@ class Browser:
 
     def console(self):
         """Messages of warnings and errors since the last call."""
-        return [m["message"] for m in self._ask("POST", f"{self.session}/se/log", {"type": "browser"}) if m["level"] in ("SEVERE", "WARNING")]
+        return [m["message"] for m in self._ask("POST", f"{self.session}/se/log", {"type": "browser"})
+                if m["level"] in ("SEVERE", "WARNING")]
 
     def requests(self):
         """Addresses that pages asked for since the last call."""
-        events = [json.loads(m["message"])["message"] for m in self._ask("POST", f"{self.session}/se/log", {"type": "performance"})]
+        events = [json.loads(m["message"])["message"] for m in self._ask("POST", f"{self.session}/se/log",
+                {"type": "performance"})]
         return [e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"]
 
     def close(self):

@@ -1,5 +1,5 @@
-"""The report in a real browser, opened from disk at desktop and phone width: what it says equals the result files, its table sorts and
-filters, its links lead somewhere, nothing is asked from another machine, and the console stays silent."""
+"""The report in a real browser, opened from disk at desktop and phone width: what it says equals the result files, its table
+sorts and filters, its links lead somewhere, nothing is asked from another machine, and the console stays silent."""
 
 import json
 import os
@@ -13,7 +13,8 @@ from tests.gate.made import blessed, case, run, with_value
 from tests.reports import sample
 
 pytestmark = pytest.mark.skipif(not os.path.exists(driver.PROGRAM), reason="needs Debian's chromium and chromium-driver")
-VISIBLE = "return [...document.querySelectorAll('table.cases tbody tr')].filter(r => !r.hidden).map(r => r.cells[1].dataset.value)"
+VISIBLE = ("return [...document.querySelectorAll('table.cases tbody tr')].filter(r => !r.hidden)"
+           ".map(r => r.cells[1].dataset.value)")
 
 
 @pytest.fixture(scope="module", params=[(1280, 900), (390, 844)], ids=["desktop", "phone"])

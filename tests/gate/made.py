@@ -29,7 +29,8 @@ def run(folder, *cases, **run_json):
         place = folder / data["case"]
         place.mkdir(parents=True, exist_ok=True)
         (place / "result.json").write_text(json.dumps(data))
-    head = {"schema": 1, "cases": [c["case"] for c in cases], "provenance": {**CLEAN, **run_json.pop("provenance", {})}, **run_json}
+    head = {"schema": 1, "cases": [c["case"] for c in cases], "provenance": {**CLEAN, **run_json.pop("provenance", {})},
+            **run_json}
     (folder / "run.json").write_text(json.dumps(head))
     return results.load(folder)
 

@@ -41,7 +41,7 @@ def test_the_ledger_says_who_what_when_and_why(tmp_path):
     first, second = entries(tmp_path / "b")
     assert first["kind"] == second["kind"] == "value"
     assert second["moved"] == {"norm": [1.0, 0.5]}
-    assert second["reason"] == "a sign in the viscous term" and second["who"] == "A Tester <a@test>" and second["commit"] == "a" * 40
+    assert (second["reason"], second["who"], second["commit"]) == ("a sign in the viscous term", "A Tester <a@test>", "a" * 40)
     assert baseline.read_all(tmp_path / "b")["kernel/one"].metrics["norm"].value == 0.5
 
 
@@ -176,5 +176,6 @@ def test_curves_are_few_and_keep_their_ends():
     series = [s for figure in kept.values() for s in figure.values()]
     assert len(series) == curves.MOST_SERIES and all(len(s["x"]) == len(s["y"]) <= curves.POINTS for s in series)
     assert (series[0]["x"][0], series[0]["x"][-1]) == (0.0, 2.0)
-    broken = curves.of(case(figures=[{**lines_figure(), "series": [{"label": "a", "role": "computed", "x": [0, 1], "y": [None, 1]}]}]))
+    broken = curves.of(case(figures=[{**lines_figure(),
+                                      "series": [{"label": "a", "role": "computed", "x": [0, 1], "y": [None, 1]}]}]))
     assert broken["profile"]["a"]["y"] == [None, 1.0]

@@ -38,7 +38,8 @@ def written(place, name):
     (with_value(case(), 1.5), 1, "moved away from the truth"),
     (with_value(case(), 0.5), 0, "1 yellow"),
     (with_value(case(verdict="fail"), 2.5, verdict="fail"), 1, "outside its band"),
-    (with_value(case(verdict="error"), None, verdict="error", reason="the time step fell to zero"), 3, "the time step fell to zero"),
+    (with_value(case(verdict="error"), None, verdict="error", reason="the time step fell to zero"), 3,
+     "the time step fell to zero"),
 ])
 def test_exit_code_and_table(place, capsys, data, code, words):
     run(place / "run", data, case("kernel/two"))
@@ -87,7 +88,8 @@ def test_a_tiny_move_is_shown_with_the_digits_that_moved(place, capsys):
 def test_a_broken_baseline_is_named_and_nothing_runs(place, capsys):
     path = baseline.path_of("kernel/one", place / "b")
     whole = path.read_text()
-    for broken in (whole[:len(whole) // 2], whole.replace('"value": 1.0', '"value": NaN'), whole.replace('"value": 1.0', '"valu": 1.0'),
+    for broken in (whole[:len(whole) // 2], whole.replace('"value": 1.0', '"value": NaN'),
+                   whole.replace('"value": 1.0', '"valu": 1.0'),
                    whole.replace("kernel/one", "kernel/eno"), "[]", "", whole.replace('"schema": 1', '"schema": 7')):
         path.write_text(broken)
         assert gate(place) == 2
@@ -155,7 +157,8 @@ def test_a_tier_is_run_and_its_failure_to_run_is_passed_on(tmp_path, capsys, mon
     program.write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/calls\nexit 2\n')
     program.chmod(0o755)
     monkeypatch.setenv("FURROW_PROGRAM", str(program))
-    assert main(["gate", "--tier", "smoke", "--only", "kernel/*", "--out", str(tmp_path / "run"), "--baselines", str(tmp_path / "b")]) == 2
+    assert main(["gate", "--tier", "smoke", "--only", "kernel/*", "--out", str(tmp_path / "run"), "--baselines",
+                 str(tmp_path / "b")]) == 2
     assert (tmp_path / "calls").read_text().split() == [
         "matrix", "--no-report", "--out", str(tmp_path / "run"), "--tier", "smoke", "--only", "kernel/*"]
     assert "nothing was run" in capsys.readouterr().err

@@ -84,7 +84,8 @@ def test_a_loosened_band_is_red_and_so_is_one_whose_leave_has_ended():
 
 
 @pytest.mark.parametrize("band, than, looser", [
-    ([0, 1], [0, 1], False), ([0, 2], [0, 1], True), ([-1, 1], [0, 1], True), ([0, None], [0, 1], True), ([None, 1], [0, 1], True),
+    ([0, 1], [0, 1], False), ([0, 2], [0, 1], True), ([-1, 1], [0, 1], True), ([0, None], [0, 1], True),
+    ([None, 1], [0, 1], True),
     ([0, 1], [0, None], False), (None, [0, 1], True), ([0, 1], None, False), (None, None, False), ([0, None], [0, None], False)])
 def test_looser(band, than, looser):
     assert is_looser(band, than) == looser

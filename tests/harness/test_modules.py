@@ -19,7 +19,8 @@ def test_what_ran_is_named_without_being_declared(tmp_path):
 
 
 def test_a_module_that_did_not_run_is_an_error(tmp_path):
-    ended = run(FURROW.with_name("furrow-misbehaving"), "run", "misbehaving/declares-more", "--no-report", "--out", tmp_path / "run")
+    ended = run(FURROW.with_name("furrow-misbehaving"), "run", "misbehaving/declares-more", "--no-report", "--out",
+                tmp_path / "run")
     assert ended.returncode == 3
     data = json.loads((tmp_path / "run/misbehaving/declares-more/result.json").read_text())
     assert data["verdict"] == "error" and "it exercises schemes/momentum, which has not run" in data["reason"]
@@ -30,7 +31,8 @@ def test_declared_names_are_those_of_modules_or_files():
     header = (ROOT / "solver/modules.hpp").read_text()
     known = set(re.findall(r'"((?:materials|schemes|particles|boundaries|integrators)/\w+|simulation)"', header))
     assert len(known) > 20
-    sources = subprocess.run(["git", "-C", str(ROOT), "ls-files", "verification", "validation", "harness"], capture_output=True, text=True)
+    sources = subprocess.run(["git", "-C", str(ROOT), "ls-files", "verification", "validation", "harness"], capture_output=True,
+                             text=True)
     wrong = []
     for name in sources.stdout.split():
         if name.endswith(".cpp"):

@@ -266,10 +266,12 @@ def test_a_killed_night_ends_its_run_and_can_be_resumed(place):
     """kill -9 of the night: the runner below it gets a signal to stop, and a later --resume goes on in the same folder."""
     slow = place / "slow"
     slow.write_text(f"#!{sys.executable}\nimport os, sys, time, shutil\nout = sys.argv[sys.argv.index('--out') + 1]\n"
-                    f"if '--resume' in sys.argv:\n  shutil.copytree({str(place / 'prepared')!r}, out, dirs_exist_ok=True); sys.exit(0)\n"
+                    f"if '--resume' in sys.argv:\n  shutil.copytree({str(place / 'prepared')!r}, out, dirs_exist_ok=True)\n"
+                    "  sys.exit(0)\n"
                     f"open({str(place / 'pid')!r}, 'w').write(str(os.getpid()))\ntime.sleep(60)\n")
     slow.chmod(0o755)
-    arguments = [sys.executable, "-m", "night", "nightly", "--out", str(place / "n1"), "--history", str(place / "h"), "--baselines",
+    arguments = [sys.executable, "-m", "night", "nightly", "--out", str(place / "n1"), "--history", str(place / "h"),
+                 "--baselines",
                  str(place / "b"), "--no-report"]
     environment = os.environ | {"PYTHONPATH": str(ROOT), "FURROW_PROGRAM": str(slow)}
     process = subprocess.Popen(arguments, env=environment)

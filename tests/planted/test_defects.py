@@ -44,7 +44,8 @@ def test_a_head_is_read(tmp_path):
 
 
 @pytest.mark.parametrize("change, word", [
-    (("Wrong: a sign\n", ""), "lacks 'Wrong"), (("Subtle: no", "Subtle: perhaps"), "yes or no"), (("Module", "Modul"), "expected one of"),
+    (("Wrong: a sign\n", ""), "lacks 'Wrong"), (("Subtle: no", "Subtle: perhaps"), "yes or no"),
+    (("Module", "Modul"), "expected one of"),
     (("Subtle: no", "Subtle: no\nSubtle: no"), "expected one of"), (("diff --git", "--git"), "come after the head")])
 def test_a_broken_head_is_named(tmp_path, change, word):
     with pytest.raises(GateError, match=word):
@@ -101,8 +102,10 @@ def test_fates(tmp_path):
 
 def test_rates_count_a_tier_with_those_below_it(tmp_path):
     one = defect(tmp_path)
-    found = [kills.fate(one, [kill("smoke")], ("smoke", "quick"), "c"), kills.fate(one, [kill("smoke", ""), kill("quick")], ("smoke", "quick"), "c"),
-             kills.fate(one, [kill("smoke", "change")], ("smoke", "quick"), "c"), kills.fate(one, [kill("smoke", "", None)], ("smoke", "quick"), "c")]
+    found = [kills.fate(one, [kill("smoke")], ("smoke", "quick"), "c"),
+             kills.fate(one, [kill("smoke", ""), kill("quick")], ("smoke", "quick"), "c"),
+             kills.fate(one, [kill("smoke", "change")], ("smoke", "quick"), "c"),
+             kills.fate(one, [kill("smoke", "", None)], ("smoke", "quick"), "c")]
     assert kills.rates(found, ("smoke", "quick")) == {"smoke": (1, 2, 4), "quick": (2, 3, 4)}
 
 
@@ -127,7 +130,8 @@ from tests.gate.made import case, run, with_value
 out = Path(sys.argv[sys.argv.index("--out") + 1]); out.mkdir(parents=True, exist_ok=True)
 value = dict(clean=1.0, wrong=9.0, moved=1.5, same=1.0)["%s"]
 c = case("kernel/one", provenance=dict(commit="%s"))
-run(out, with_value(dict(c, verdict="fail") if value > 2 else c, value, verdict="fail" if value > 2 else "pass"), provenance=dict(commit="%s"))
+verdict = "fail" if value > 2 else "pass"
+run(out, with_value(dict(c, verdict=verdict), value, verdict=verdict), provenance=dict(commit="%s"))
 ''' % (text, *[os.popen("git rev-parse HEAD").read().strip()] * 2))
 os.chmod("build/release/furrow-program", 0o755)
 """
@@ -153,7 +157,8 @@ def project(tmp_path, monkeypatch):
     folder.mkdir()
 
     def plant(name, word, head=HEAD, old="clean"):
-        (folder / f"{name}.patch").write_text(head.partition("\n\n")[0] + f"\n\ndiff --git a/x b/x\n--- a/x\n+++ b/x\n@@ -1 +1 @@\n-{old}\n+{word}\n")
+        change = f"diff --git a/x b/x\n--- a/x\n+++ b/x\n@@ -1 +1 @@\n-{old}\n+{word}\n"
+        (folder / f"{name}.patch").write_text(head.partition("\n\n")[0] + "\n\n" + change)
 
     def hunt(*more):
         return main(["defects", "--tier", "smoke", "--out", str(tmp_path / "out"), "--patches", str(folder), *more])
@@ -190,7 +195,7 @@ def test_a_hunt_goes_on_where_it_was_cut_short(project, capsys):
     assert hunt() == 0
     marked = place / "out/fates/a.json"
     marked.write_text(marked.read_text().replace('"kernel/one"', '"kept/from-before"'))
-    (place / "out/fates/b.json").write_text('{"name": "b", "sta')   # a kill in the middle of a write leaves no such thing; a bad disk may
+    (place / "out/fates/b.json").write_text('{"name": "b", "sta')   # no kill leaves such a thing; a bad disk may
     assert hunt("--resume") == 0
     assert "kept/from-before" in marked.read_text() and fates(place)["b"] == "killed"
     plant("a", "moved")
