@@ -60,7 +60,7 @@ def accepted_of(metric, before=None):
     value = None if metric["verdict"] == "skipped" else metric["value"]
     kept = before if before is not None and before.unit == metric["unit"] else Accepted(None, "", "", None, None, None)
     return Accepted(value, metric["unit"], metric["verdict"], metric["reference"]["value"],
-                    metric["reference"]["standard_uncertainty"], metric["band"], kept.spread, kept.runs)
+                    metric["reference"]["standard_uncertainty"], metric["band"], kept.spread, kept.runs, kept.reference_spread)
 
 
 def _accept(case, before, reason, expires, folder, who):

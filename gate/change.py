@@ -59,16 +59,20 @@ def change(value, accepted, norm, reference, uncertainty):
     allowed = allowance(accepted.value, accepted.reference, accepted.unit, accepted.spread)
     measured = accepted.spread is not None
     new_truth, old_truth = truth_of(reference, norm), truth_of(accepted.reference, norm)
-    reference_moved = new_truth != old_truth and not (
-        new_truth is not None and old_truth is not None
-        and abs(new_truth - old_truth) <= ROUND_OFF * max(abs(new_truth), abs(old_truth)))
-    if reference_moved:
+    if not _same_truth(new_truth, old_truth, accepted.reference_spread):
         return Change(MOVED, UNDECIDED, allowed, measured, "the reference itself changed")
     if same_bits(value, accepted.value):
         return Change(BITWISE, None, allowed, measured)
     if abs(value - accepted.value) <= allowed:
         return Change(WITHIN, None, allowed, measured)
     return Change(MOVED, *_direction(value, accepted.value, new_truth, old_truth, uncertainty, allowed, measured))
+
+
+def _same_truth(new, old, spread):
+    """Whether a reference is what it was, but for the noise that was measured of it and for round-off."""
+    if new is None or old is None:
+        return new is old
+    return abs(new - old) <= max(SPREADS * (spread or 0.0), ROUND_OFF * max(abs(new), abs(old)))
 
 
 def _direction(value, old, new_truth, old_truth, uncertainty, allowed, measured):

@@ -17,8 +17,8 @@ def variant(run):
 
 
 def spreads(runs):
-    """case -> metric -> (spread, runs). GateError when the runs are not of one clean commit; a case counts with the runs that
-    have it, and is left out with fewer than two, or where an input differs."""
+    """case -> metric -> (spread, runs, spread of the reference). GateError when the runs are not of one clean commit; a case
+    counts with the runs that have it, and is left out with fewer than two, or where an input differs."""
     commits = {str(r.provenance.get("commit", "unknown")) for r in runs}
     if len(runs) < 2:
         raise GateError("noise is a difference: it takes two runs or more")
@@ -41,9 +41,15 @@ def spreads(runs):
             for metric, _ in member.metrics:
                 value = metric["value"]
                 if isinstance(value, (int, float)) and math.isfinite(value) and metric["verdict"] != "skipped":
-                    values.setdefault(metric["name"], []).append(value)
-        result[case] = {name: (max(v) - min(v), len(v)) for name, v in values.items() if len(v) >= 2}
+                    values.setdefault(metric["name"], []).append((value, metric["reference"]["value"]))
+        result[case] = {name: (_spread([v for v, _ in both]), len(both), _spread([r for _, r in both]))
+                        for name, both in values.items() if len(both) >= 2}
     return result
+
+
+def _spread(values):
+    """Largest less smallest; None where one of them is missing."""
+    return None if None in values else max(values) - min(values)
 
 
 def record(runs, reason, folder=FOLDER, who=None):
@@ -58,7 +64,7 @@ def record(runs, reason, folder=FOLDER, who=None):
         for case, accepted in everything.items():
             for name, metric in accepted.metrics.items():
                 if name in measured.get(case, {}) and metric.value is not None:
-                    metric.spread, metric.runs = measured[case][name]
+                    metric.spread, metric.runs, metric.reference_spread = measured[case][name]
                     count += 1
                 elif metric.value is not None and metric.spread is None:
                     without += 1

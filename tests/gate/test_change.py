@@ -67,6 +67,14 @@ def test_a_reference_that_moved_is_said_even_when_the_value_did_not():
     assert judged(1.0, reference=2.0, old_reference=math.nextafter(2.0, 3.0)).kind == BITWISE
 
 
+def test_a_reference_that_is_computed_may_move_within_its_own_noise():
+    before = accepted(1.0, 2.0)
+    before.reference_spread = 1e-9
+    assert change(1.0, before, "absolute", 2.0 + 2.9e-9, 0.0).kind == BITWISE
+    assert change(1.0, before, "absolute", 2.0 + 3.1e-9, 0.0).kind == MOVED
+    assert change(1.0, before, "absolute", None, 0.0).kind == MOVED
+
+
 @pytest.mark.parametrize("new, old", [(math.nan, 1.0), (math.inf, 1.0), (-math.inf, 1.0), (1.0, math.nan), (1.0, math.inf)])
 def test_what_is_not_finite_is_never_judged(new, old):
     with pytest.raises(ValueError):
