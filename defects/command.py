@@ -19,7 +19,7 @@ from reports.numbers import number
 
 OUT = ROOT / "runs" / "defects"
 WORDS = {"killed": "killed", "changed": "seen by its change alone", "survived": "SURVIVED", "equivalent": "equivalent",
-         "error": "ERROR"}
+         "passed": "passed", "error": "ERROR"}
 
 
 def parser():
@@ -54,9 +54,11 @@ def check(wanted):
     stale = [(d, why) for d in wanted if (why := patches.does_not_apply(d, ROOT))]
     for d, why in stale:
         print(f"{d.name}: does not apply: {why}")
-    count = collections.Counter(m for d in wanted for m in d.modules)
+    count = collections.Counter(m for d in wanted if not d.right for m in d.modules)
     print("\n".join(f"{n:>4}  {module}" for module, n in sorted(count.items())))
-    print(f"{len(wanted)} defects, {sum(d.subtle for d in wanted)} of them subtle; {len(stale)} do not apply")
+    right = sum(d.right for d in wanted)
+    print(f"{len(wanted) - right} defects, {sum(d.subtle for d in wanted)} of them subtle; {right} right changes; "
+          f"{len(stale)} do not apply")
     return 3 if stale else 0
 
 
@@ -109,7 +111,7 @@ class Hunt:
                 self.tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()])
                 ran = {c.id: c for c in results.load(folder).cases} if folder.exists() else {}
                 seen += [kills.seen(c, ran.get(c.id), tier, self.noise.get(c.id)) for c in cases]
-                if any(k.tier == tier and k.by == "truth" for k in seen):
+                if not defect.right and any(k.tier == tier and k.by == "truth" for k in seen):
                     break
         shutil.rmtree(folder, ignore_errors=True)
         return kills.fate(defect, seen, self.tiers, self.tree.commit)
@@ -165,7 +167,7 @@ def matrix(found, wanted, state):
 
 def summary(found, wanted, tiers):
     count = collections.Counter(f.state for f in found)
-    lines = [", ".join(f"{count[s]} {WORDS[s]}" for s in WORDS if count[s]) + f" of {len(found)} defects"]
+    lines = [", ".join(f"{count[s]} {WORDS[s]}" for s in WORDS if count[s]) + f" of {len(found)}"]
     for tier, (truth, any_, alive) in kills.rates(found, tiers).items():
         if alive:
             lines.append(f"{tier:>8}: {number(100.0 * truth / alive, 3)} % killed by the truth, "

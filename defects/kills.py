@@ -26,7 +26,7 @@ class Kill:
 class Fate:
     """What became of a defect."""
     name: str
-    state: str                # killed, changed (only the change detector saw it), survived, equivalent, error
+    state: str                # killed, changed (only the change detector saw it), survived, equivalent, passed (right), error
     reason: str = ""          # of an error
     tier: str = ""            # smallest tier that killed it by the truth, or by the change
     hash: str = ""
@@ -77,12 +77,17 @@ def fate(defect, kills, tiers, commit):
             break
     smoke = [k.moved for k in kills if k.tier == "smoke" and k.moved is not None]
     result.largest_smoke_move = max(smoke, default=None)
-    if defect.equivalent:
+    if defect.right:
+        red = [k for k in kills if k.by]
+        result.state = "error" if red else "passed"
+        result.reason = f"a right change is red: {red[0].case} {red[0].metric} {red[0].kind}" if red else ""
+        result.tier = ""
+    elif defect.equivalent:
         if any(k.by or k.moved for k in kills):
             result.state, result.reason = "error", "said to be equivalent, and moves numbers"
         else:
             result.state = "equivalent"
-    elif not kills:
+    if not kills:
         result.state, result.reason = "error", f"no case exercises {' or '.join(defect.modules)}"
     return result
 

@@ -1,6 +1,7 @@
 """Patches in tests/defects/: a head of `Key: value` lines, an empty line, then the difference.
 
-  Wrong: what is wrong, in a sentence             (required)
+  Wrong: what is wrong, in a sentence             (required, or:)
+  Right: why nothing that matters changes         (a change that is right and must not be red: no defect, but the gate's own test)
 Module: schemes/momentum, simulation            (required; as in results' `exercises`: cases that exercise one of them are run;
                                                    `harness/...`: all cases are)
   Subtle: yes                                     (required: yes or no; yes: no smoke metric moves by more than 5 %)
@@ -18,7 +19,7 @@ from pathlib import Path
 from gate.files import ROOT, GateError
 
 FOLDER = ROOT / "tests" / "defects"
-KEYS = {"Wrong", "Module", "Subtle", "Source", "Equivalent"}
+KEYS = {"Wrong", "Right", "Module", "Subtle", "Source", "Equivalent"}
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class Defect:
     source: str
     equivalent: str
     hash: str        # of the whole file
+    right: bool = False
 
     def touches(self, exercises):
         """Whether a case with these modules is one that may catch it."""
@@ -50,6 +52,9 @@ def read(path):
         if not colon or key not in KEYS or key in fields:
             raise GateError(f"{path}:{number}: expected one of {', '.join(sorted(KEYS))}, once each, and found {line[:60]!r}")
         fields[key], last = value.strip(), key
+    right = "Right" in fields
+    if right:
+        fields = {"Subtle": "no", "Wrong": fields["Right"], **fields}
     for key in ("Wrong", "Module", "Subtle"):
         if not fields.get(key):
             raise GateError(f"{path}: its head lacks '{key}: ...'")
@@ -59,7 +64,7 @@ def read(path):
         raise GateError(f"{path}: an empty line and 'diff --git ...' come after the head")
     return Defect(path.stem, path, fields["Wrong"], tuple(m.strip() for m in fields["Module"].split(",")),
                   fields["Subtle"] == "yes",
-                  fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(text.encode()).hexdigest())
+                  fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(text.encode()).hexdigest(), right)
 
 
 def read_all(folder=FOLDER):

@@ -88,9 +88,11 @@ def run_tier(arguments, folder, tier):
         raise GateError("nothing was run, so that nothing can be compared", code)
 
 
-def build_report(folder):
-    from reports.pages import build   # draws figures: what takes a second to import is not for those who want none
-    return build(folder)
+def build_report(folder, run):
+    from reports.pages import assign_pages, build   # what takes a second to import is not for those who want no figures
+    report = build(folder)
+    assign_pages(run.cases)
+    return report
 
 
 def new_folder(name):
@@ -120,14 +122,16 @@ def gate(arguments):
         run = load(folder)
         comparison = compare(run, baselines, entries)
         outputs.write(run, comparison, baselines)
-        report = None if arguments.no_report else build_report(folder)
+        report = None if arguments.no_report else build_report(folder, run)
     if os.environ.get("GITHUB_ACTIONS") == "true":
         print("\n".join(outputs.annotations(comparison)))
     if arguments.quiet:
         print(table.headline(comparison))
     else:
         width = shutil.get_terminal_size((100, 24)).columns
-        print(table.table(comparison, width, arguments.all, sys.stdout.isatty()))
+        tty = sys.stdout.isatty()
+        pages = {c.id: f"{(report.parent / c.page).resolve().as_uri()}#metrics" for c in run.cases} if tty and report else None
+        print(table.table(comparison, width, arguments.all, tty, pages))
         print(f"{'report: ' + str(report) if report else 'results: ' + str(run.folder / 'gate')}")
     return comparison.exit_code
 

@@ -62,9 +62,10 @@ def blame_lines(comparison):
     return lines
 
 
-def table(comparison, width=100, all_rows=False, colour=False):
+def table(comparison, width=100, all_rows=False, colour=False, pages=None):
     """Text of at most `width` columns: rows that are not green (all of them with `all_rows`, else the worst), then what they
-    point to, then what is conceded."""
+    point to, then what is conceded. `pages`: case -> address of its page with old and new curves, for a terminal that shows
+    links."""
     shown = [(r, 1) for r in comparison.rows] if all_rows else _folded([r for r in comparison.rows if r.colour != GREEN])
     left_out = 0 if all_rows else sum(n for _, n in shown[MOST_ROWS:])
     shown = shown if all_rows else shown[:MOST_ROWS]
@@ -74,8 +75,12 @@ def table(comparison, width=100, all_rows=False, colour=False):
     lines = []
     for (row, _), texts in zip(shown, lay(shown, cells, width)):
         mark = MARKS[row.colour]
-        lines += [COLOURS[row.colour] + text[:len(mark)] + "\033[0m" + text[len(mark):] if colour and i == 0 else text
-                  for i, text in enumerate(texts)]
+        texts = list(texts)
+        if pages and row.case in pages:
+            texts[0] = texts[0][:len(mark)] + _linked(texts[0][len(mark):], pages[row.case])
+        if colour:
+            texts[0] = COLOURS[row.colour] + texts[0][:len(mark)] + "\033[0m" + texts[0][len(mark):]
+        lines += texts
     if left_out:
         lines.append(f"and {left_out} more; --all shows them")
     lines += [cut(line, width) for line in blame_lines(comparison)]
@@ -87,6 +92,12 @@ def table(comparison, width=100, all_rows=False, colour=False):
     lines += [cut(note, width) for note in comparison.notes]
     lines.append(cut(headline(comparison), width))
     return "\n".join(lines)
+
+
+def _linked(text, address):
+    """The words between the blanks of `text` as a link (OSC 8); terminals that do not know links show the words."""
+    blank = len(text) - len(text.lstrip())
+    return f"{text[:blank]}\033]8;;{address}\033\\{text[blank:]}\033]8;;\033\\"
 
 
 def _wide(shown, cells, width):

@@ -68,7 +68,7 @@ def nightly(arguments):
                 nights, found = remember(run, arguments.history, baselines)
             except GateError as error:
                 faults.append(str(error))
-        report = None if arguments.no_report else build_report(folder)
+        report = None if arguments.no_report else build_report(folder, run)
         text = summary.text(run, comparison, found, nights, report, faults)
         write_whole(folder / "summary.txt", text + "\n")
     print(text)

@@ -9,8 +9,9 @@ from reports import numbers
 from reports.results import ReportError, read_json
 
 HERE = Path(__file__).resolve().parent
-WORDS = {"killed": "killed", "changed": "change alone", "survived": "survived", "equivalent": "equivalent", "error": "error"}
-COLOURS = {"killed": "green", "changed": "yellow", "survived": "red", "equivalent": "", "error": "red"}
+WORDS = {"killed": "killed", "changed": "change alone", "survived": "survived", "equivalent": "equivalent",
+         "passed": "right, passed", "error": "error"}
+COLOURS = {"killed": "green", "changed": "yellow", "survived": "red", "equivalent": "", "passed": "green", "error": "red"}
 
 
 def build(folder):
@@ -27,7 +28,7 @@ def build(folder):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     cases = sorted({k["case"] for d in defects for k in d["seen"] if k["by"]})
-    order = {"error": 0, "survived": 1, "changed": 2, "killed": 3, "equivalent": 4}
+    order = {"error": 0, "survived": 1, "changed": 2, "killed": 3, "equivalent": 4, "passed": 5}
     (page / "index.html").write_text(environment.get_template("kills.html").render(
         defects=sorted(defects, key=lambda d: (order[d["state"]], d["modules"], d["name"])), tiers=tiers, rates=data["rates"],
         commit=data["commit"],

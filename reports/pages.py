@@ -94,7 +94,8 @@ def slug(text):
     return re.sub(r"[^A-Za-z0-9._-]+", "-", text).strip(".-") or "unnamed"
 
 
-def _assign_pages(cases):
+def assign_pages(cases):
+    """Gives each case the path of its page inside the report."""
     taken = set()
     for case in cases:
         page = "cases/" + "/".join(slug(part) for part in case.id.split("/"))
@@ -188,7 +189,7 @@ def draw_all(figures, root, jobs):
 
 
 def _write(run, work, jobs):
-    _assign_pages(run.cases)
+    assign_pages(run.cases)
     since, course = changes.load(run.folder), trends.load(run.folder)
     drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance, since.curves.get(case.id))
              for case in run.cases}

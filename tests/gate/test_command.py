@@ -79,6 +79,15 @@ def test_the_table_fits_the_terminal_and_never_loses_the_metric(place, capsys, m
     assert any("a_metric_of_some_length" in line for line in lines)
 
 
+def test_a_terminal_that_shows_links_is_led_to_the_curves(place, capsys, monkeypatch):
+    run(place / "run", with_value(case(), 1.5), case("kernel/two"))
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
+    assert main(["gate", str(place / "run"), "--baselines", str(place / "b")]) == 1
+    page = place / "run/report/cases/kernel/one.html"
+    said = capsys.readouterr().out
+    assert page.exists() and f"\033]8;;{page.resolve().as_uri()}#metrics\033\\" in said and said.count("\033]8;;\033\\") == 1
+
+
 def test_a_tiny_move_is_shown_with_the_digits_that_moved(place, capsys):
     run(place / "run", with_value(case(), 1.0 + 1e-9), case("kernel/two"))
     gate(place)

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -28,7 +29,11 @@ def defect(tmp_path, text=HEAD, name="a-sign"):
 def test_every_patch_has_a_head_and_applies():
     found = patches.read_all()
     assert [f"{d.name}: {why}" for d in found if (why := patches.does_not_apply(d, ROOT))] == []
-    assert len(found) >= 60 and sum(d.subtle for d in found) >= 20
+    wrong = [d for d in found if not d.right]
+    assert len(wrong) >= 60 and sum(d.subtle for d in wrong) >= 20 and len(found) - len(wrong) >= 5
+    modules = (ROOT / "solver/modules.hpp").read_text()
+    few = {m for m in re.findall(r'"(\w+/\w+|simulation)"', modules) if sum(m in d.modules for d in wrong) < 3}
+    assert few == set()
     assert len({d.wrong for d in found}) == len(found)
 
 
@@ -98,6 +103,14 @@ def test_fates(tmp_path):
     equivalent = defect(tmp_path, HEAD.replace("Subtle: no", "Subtle: no\nEquivalent: nobody reads it"), "equivalent")
     assert kills.fate(equivalent, [kill("smoke", "", None)], tiers, "c").state == "equivalent"
     assert kills.fate(equivalent, [kill("smoke", "", 0.1)], tiers, "c").state == "error"
+
+
+def test_a_right_change_must_not_be_red(tmp_path):
+    right = defect(tmp_path, HEAD.replace("Wrong: a sign", "Right: another order"))
+    assert right.right
+    assert kills.fate(right, [kill("smoke", ""), kill("quick", "")], ("smoke", "quick"), "c").state == "passed"
+    for by in ("truth", "change"):
+        assert "a right change is red" in kills.fate(right, [kill("smoke", by)], ("smoke",), "c").reason
 
 
 def test_rates_count_a_tier_with_those_below_it(tmp_path):
