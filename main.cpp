@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
       furrow::earth_pressure_family(),
       furrow::taylor_bar_family(),
       furrow::column_collapse_family(),
+      furrow::tillage_family(),
   };
   return furrow::command_line(families, argc, argv);
 }

@@ -197,6 +197,17 @@ double Parameters::number_or(std::string_view key, double otherwise, Range allow
   return has(key) ? number(key, allowed) : otherwise;
 }
 
+namespace {
+
+/// The bounds, which are in SI, as numbers of a unit.
+Range in_unit(Range range, const Unit& unit) {
+  range.low /= unit.factor;
+  range.high /= unit.factor;
+  return range;
+}
+
+}  // namespace
+
 double Parameters::quantity(std::string_view key, Dimension dimension, Range allowed) const {
   const std::string expected = Node::quantity_words(dimension, allowed, false);
   const toml::node& node = node_->need(key, expected);
@@ -205,7 +216,7 @@ double Parameters::quantity(std::string_view key, Dimension dimension, Range all
   const toml::node* value = quantity ? quantity->get("value") : nullptr;
   if (!value) node_->wrong(key, node, expected);
   const Unit unit = node_->unit_in(key, *quantity, dimension);
-  return node_->number_in(fmt::format("{}.value", key), *value, allowed, expected) * unit.factor;
+  return node_->number_in(fmt::format("{}.value", key), *value, in_unit(allowed, unit), expected) * unit.factor;
 }
 
 double Parameters::quantity_or(std::string_view key, Dimension dimension, double otherwise, Range allowed) const {
@@ -282,7 +293,7 @@ std::vector<double> Parameters::quantities(std::string_view key, Dimension dimen
   const Unit unit = node_->unit_in(key, *quantity, dimension);
   std::vector<double> result;
   for (const toml::node& entry : *values->as_array())
-    result.push_back(unit.factor * node_->number_in(fmt::format("{}.value[{}]", key, result.size()), entry, allowed,
+    result.push_back(unit.factor * node_->number_in(fmt::format("{}.value[{}]", key, result.size()), entry, in_unit(allowed, unit),
                                                     fmt::format("a number, {}", allowed.words())));
   return result;
 }

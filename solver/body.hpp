@@ -2,11 +2,13 @@
 // answers a motion and how its stress accelerates it; when each of these happens is the integrator's business.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "solver/boundaries/boundary_layer.hpp"
 #include "solver/boundaries/constraints.hpp"
+#include "solver/boundaries/contact.hpp"
 #include "solver/boundaries/wall.hpp"
 #include "solver/materials/materials.hpp"
 #include "solver/particles/fields.hpp"
@@ -28,6 +30,13 @@ class Body {
   Loads<Dim> loads;
   std::vector<RigidWall<Dim>> walls;
   std::vector<BoundaryLayer<Dim>> layers;
+  std::vector<RigidBody<Dim>> rigid_bodies;
+  /// Called by accelerate() when the own stress has acted: another body may add what it does to this one, at the time and with the
+  /// velocities given. Returns the powers (W) of relative motion in the contact and of the other body's motion on this one.
+  struct Exchange {
+    double contact = 0.0, external = 0.0;
+  };
+  std::function<Exchange(double time, std::span<const Vector<Dim>> velocity, std::span<Vector<Dim>> acceleration)> neighbour_body;
   Images<Dim> images;
 
   double smoothing_length() const { return scheme.smoothing_ratio * spacing; }
@@ -76,7 +85,7 @@ class Body {
   const std::vector<Vector<Dim>>& layer_forces() const { return layer_forces_; }
   double layer_power() const { return layer_power_; }
   double layer_viscous_power() const { return layer_viscous_power_; }
-  double friction_power() const { return friction_power_; }   ///< W, taken out of the motion by friction on walls
+  double friction_power() const { return friction_power_; }   ///< W, taken out of the motion by friction on walls and by contact
   bool is_in_layer(std::size_t i) const { return !in_layer_.empty() && in_layer_[i] != 0; }
   std::int64_t builds() const { return builds_; }
 

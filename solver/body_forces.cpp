@@ -36,6 +36,19 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
     friction_power_ += push.friction_power;
   }
   external_power_ = damping_power_ = 0.0;
+  double touch_power = 0.0;
+  for (RigidBody<Dim>& rigid : rigid_bodies) {
+    rigid.move(time);
+    const auto touch = rigid.contact.touch(p, spacing, time, velocity, p.acceleration, rigid.outline,
+                                           [this](std::size_t i) { return !is_in_layer(i); });
+    friction_power_ += touch.power;
+    touch_power += touch.surface_power;
+  }
+  if (neighbour_body) {
+    const Exchange exchange = neighbour_body(time, velocity, p.acceleration);
+    friction_power_ += exchange.contact;
+    touch_power += exchange.external;
+  }
   if (damping > 0.0) has_run(Module::damping);
   if (!gravity.isZero(0.0)) has_run(Module::gravity);
   if (damping > 0.0 || !gravity.isZero(0.0))
@@ -45,6 +58,7 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
       sum[0] += p.mass[i] * gravity.dot(velocity[i]);
       sum[1] += p.mass[i] * damping * velocity[i].squaredNorm();
     }));
+  external_power_ += touch_power;
   for (std::size_t l = 0; l < layers.size(); ++l)
     external_power_ -= layers[l].ids.empty() ? 0.0 : layer_forces_[l].dot(layers[l].velocity(time));
   for (const AppliedForce<Dim>& load : loads.forces) {
@@ -57,6 +71,11 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
       p.acceleration[i] += a;
       external_power_ += p.mass[i] * a.dot(velocity[i]);
     }
+  }
+  for (std::size_t k = 0; k < loads.held.ids.size(); ++k) {
+    const std::size_t i = index_of(loads.held.ids[k]);
+    p.acceleration[i] += loads.held.forces[k] / p.mass[i];
+    external_power_ += loads.held.forces[k].dot(velocity[i]);
   }
   if (!loads.faces.empty()) has_run(Module::held_face);
   for (const HeldFace& face : loads.faces)

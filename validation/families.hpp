@@ -8,5 +8,6 @@ namespace furrow {
 
 Family taylor_bar_family();   ///< validation/taylor-bar: metal rods against a rigid wall
 Family column_collapse_family();   ///< validation/column-collapse: columns of soil that are released
+Family tillage_family();   ///< validation/tillage: a blade cuts soil
 
 }  // namespace furrow

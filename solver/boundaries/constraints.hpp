@@ -38,6 +38,14 @@ struct AppliedForce {
   std::function<Vector<Dim>(double time)> force;      ///< N in all; per metre of width in plane strain
 };
 
+/// Forces on single particles, by id, that stay until somebody changes them: what another body does to this one between two looks
+/// at the contact.
+template <int Dim>
+struct HeldForces {
+  std::vector<std::int32_t> ids;
+  std::vector<Vector<Dim>> forces;   ///< N
+};
+
 /// Everything that acts on a body from outside.
 template <int Dim>
 struct Loads {
@@ -47,6 +55,7 @@ struct Loads {
   double damping_end = std::numeric_limits<double>::infinity();   ///< s; from then on there is no damping
   std::vector<PrescribedMotion<Dim>> motions;
   std::vector<AppliedForce<Dim>> forces;
+  HeldForces<Dim> held;
   std::vector<HeldFace> faces;                        ///< by Body::hold_face; velocities must obey them from the start
 
   Vector<Dim> gravity_at(double time) const { return gravity_factor ? Vector<Dim>(gravity_factor(time) * gravity) : gravity; }

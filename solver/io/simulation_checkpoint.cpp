@@ -55,6 +55,17 @@ Checkpoint checkpoint_of(const Simulation<Dim>& simulation) {
       checkpoint.put_array(std::string(field.name), std::move(flat));
     }
   });
+  for (std::size_t k = 0; k < simulation.body.rigid_bodies.size(); ++k) {
+    const auto memory = simulation.body.rigid_bodies[k].contact.memory();
+    const std::string name = "contact." + std::to_string(k);
+    checkpoint.put_scalar(name + ".time", memory.time);
+    checkpoint.put_scalar(name + ".largest_penetration", memory.largest_penetration);
+    checkpoint.put_scalar(name + ".slipped", memory.slipped);
+    checkpoint.put_array(name + ".impulse", std::vector<double>(memory.impulse.data(), memory.impulse.data() + Dim));
+    std::vector<double> flat;
+    for (const Vector<Dim>& s : memory.stretch) flat.insert(flat.end(), s.data(), s.data() + Dim);
+    checkpoint.put_array(name + ".stretch", std::move(flat));
+  }
   const auto clock = simulation.clock();
   for_each_number(clock, [&](const char* name, double value) { checkpoint.put_scalar(name, value); });
   checkpoint.put_scalar("steps", clock.steps);
@@ -79,6 +90,18 @@ void resume_from(const Checkpoint& checkpoint, Simulation<Dim>& simulation) {
     else
       for (std::size_t i = 0; i < n; ++i) std::copy_n(values.data() + i * components, components, array[i].data());
   });
+  for (std::size_t k = 0; k < simulation.body.rigid_bodies.size(); ++k) {
+    const std::string name = "contact." + std::to_string(k);
+    typename Contact<Dim>::Memory memory;
+    memory.time = checkpoint.scalar<double>(name + ".time");
+    memory.largest_penetration = checkpoint.scalar<double>(name + ".largest_penetration");
+    memory.slipped = checkpoint.scalar<double>(name + ".slipped");
+    std::copy_n(checkpoint.array<double>(name + ".impulse").data(), Dim, memory.impulse.data());
+    const auto& flat = checkpoint.array<double>(name + ".stretch");
+    memory.stretch.resize(flat.size() / Dim);
+    for (std::size_t i = 0; i < memory.stretch.size(); ++i) std::copy_n(flat.data() + i * Dim, Dim, memory.stretch[i].data());
+    simulation.body.rigid_bodies[k].contact.remember(std::move(memory));
+  }
   typename Simulation<Dim>::Clock clock;
   for_each_number(clock, [&](const char* name, double& value) { value = checkpoint.scalar<double>(name); });
   clock.steps = checkpoint.scalar<std::int64_t>("steps");

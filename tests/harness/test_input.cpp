@@ -164,3 +164,11 @@ TEST_CASE("Files that a table depends on are part of what it says, wherever belo
   std::filesystem::remove(file);
   CHECK_THROWS_AS(sample().depends_on(file), InputError);
 }
+
+TEST_CASE("bounds of a quantity hold whatever its unit", "[input]") {
+  const Parameters in = Parameters::parse("rake = { value = 70, unit = \"deg\" }\nway = { value = [2, 30], unit = \"mm\" }\n", "case.toml");
+  REQUIRE(in.quantity("rake", dimension::none, {0.1, 2.0}) == Approx(1.2217304763960306));
+  REQUIRE_THROWS_AS(in.quantity("rake", dimension::none, {0.1, 1.2}), InputError);
+  REQUIRE(in.quantities("way", dimension::length, {0.0, 0.03}).back() == Approx(0.03));
+  REQUIRE_THROWS_AS(in.quantities("way", dimension::length, {0.0, 0.029}), InputError);
+}

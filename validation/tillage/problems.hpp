@@ -1,0 +1,11 @@
+// The problems of the family.
+#pragma once
+
+#include "harness/case.hpp"
+
+namespace furrow::tillage_cases {
+
+Problem rigid_blade(const Parameters& input);   ///< a rigid blade at one speed
+Problem speed_law(const Parameters& input);     ///< the same at several speeds: F = F_0 + F_2 v^2
+
+}  // namespace furrow::tillage_cases
