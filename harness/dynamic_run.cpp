@@ -72,6 +72,17 @@ void DynamicRun<Dim>::probe(HistoryColumn column, Probe value) {
 }
 
 template <int Dim>
+void DynamicRun<Dim>::carry(std::function<void(Checkpoint&)> save, std::function<void(const Checkpoint&)> load) {
+  save_ = std::move(save);
+  load_ = std::move(load);
+}
+
+template <int Dim>
+void DynamicRun<Dim>::with_snapshots(std::function<void(int number)> also) {
+  with_snapshots_ = std::move(also);
+}
+
+template <int Dim>
 void DynamicRun<Dim>::append_row() {
   simulation_.take_stock();
   std::vector<double> values = standard_values(simulation_);
@@ -84,6 +95,7 @@ void DynamicRun<Dim>::write_snapshot() {
   const auto file = run_.folder() / fmt::format("snapshot-{:04d}.vtkhdf", snapshots_++);
   furrow::write_snapshot(file, particle_snapshot(simulation_.body.particles, simulation_.time()));
   run_.file("snapshots", file);
+  if (with_snapshots_) with_snapshots_(snapshots_ - 1);
 }
 
 template <int Dim>
@@ -94,6 +106,7 @@ void DynamicRun<Dim>::write_checkpoint() {
   checkpoint.put_scalar("snapshots", static_cast<std::int32_t>(snapshots_));
   checkpoint.put_scalar("next_row", static_cast<std::int32_t>(next_row_));
   checkpoint.put_scalar("next_snapshot", static_cast<std::int32_t>(next_snapshot_));
+  if (save_) save_(checkpoint);
   checkpoint.write(run_.folder() / "checkpoint.h5");
 }
 
@@ -105,6 +118,7 @@ bool DynamicRun<Dim>::resume() {
   try {
     const Checkpoint checkpoint = Checkpoint::read(file);
     resume_from(checkpoint, simulation_);
+    if (load_) load_(checkpoint);
     history_.emplace(History::resume(run_.folder() / "history.h5", columns_,
                                      static_cast<std::size_t>(checkpoint.scalar<std::int64_t>("history_rows"))));
     next_row_ = checkpoint.scalar<std::int32_t>("next_row");

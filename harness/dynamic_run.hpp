@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "harness/case.hpp"
+#include "solver/io/checkpoint.hpp"
 #include "solver/io/history.hpp"
 #include "solver/simulation.hpp"
 
@@ -26,6 +27,11 @@ class DynamicRun {
 
   /// A column of the history beside those that every run has.
   void probe(HistoryColumn column, Probe value);
+
+  /// What else a restart needs, such as a second body: `save` adds it to a checkpoint, `load` takes it back before the run goes on.
+  void carry(std::function<void(Checkpoint&)> save, std::function<void(const Checkpoint&)> load);
+  /// Called after each snapshot with its number, for what else is to be kept of that moment.
+  void with_snapshots(std::function<void(int number)> also);
 
   /// Runs to `end` with `rows` rows of history and `snapshots` snapshots after the first; or ends after the first row at which
   /// `at_rest`, which sees the history, says so. Throws Divergence, with a snapshot of the last good state in the run's folder.
@@ -48,6 +54,9 @@ class DynamicRun {
   Simulation<Dim>& simulation_;
   std::vector<HistoryColumn> columns_;
   std::vector<Probe> probes_;
+  std::function<void(Checkpoint&)> save_;
+  std::function<void(const Checkpoint&)> load_;
+  std::function<void(int)> with_snapshots_;
   std::optional<History> history_;
   int snapshots_ = 0, next_row_ = 1, next_snapshot_ = 1;
 };

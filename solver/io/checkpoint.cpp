@@ -128,6 +128,25 @@ const std::string& Checkpoint::text(const std::string& name) const {
   return found->second;
 }
 
+void Checkpoint::put_all(const std::string& prefix, const Checkpoint& other) {
+  for (const auto& [name, values] : other.arrays_) insert(arrays_, "array", prefix + name, values);
+  for (const auto& [name, values] : other.scalars_) insert(scalars_, "scalar", prefix + name, values);
+  for (const auto& [name, text] : other.texts_) put_text(prefix + name, text);
+}
+
+Checkpoint Checkpoint::part(const std::string& prefix) const {
+  Checkpoint found;
+  found.origin_ = origin_;
+  const auto take = [&prefix](const auto& from, auto& to) {
+    for (const auto& [name, value] : from)
+      if (name.starts_with(prefix)) to.emplace(name.substr(prefix.size()), value);
+  };
+  take(arrays_, found.arrays_);
+  take(scalars_, found.scalars_);
+  take(texts_, found.texts_);
+  return found;
+}
+
 std::vector<std::string> Checkpoint::array_names() const { return keys(arrays_); }
 std::vector<std::string> Checkpoint::scalar_names() const { return keys(scalars_); }
 std::vector<std::string> Checkpoint::text_names() const { return keys(texts_); }

@@ -42,6 +42,10 @@ class Checkpoint {
     insert(scalars_, "scalar", name, std::vector<T>{value});
   }
   void put_text(const std::string& name, const std::string& text);
+  /// Takes in everything of another checkpoint, with `prefix` before each name.
+  void put_all(const std::string& prefix, const Checkpoint& other);
+  /// What was taken in with this prefix, without it.
+  Checkpoint part(const std::string& prefix) const;
 
   /// What was put in under that name.
   /// @throws std::out_of_range if there is none of that name and type; the message names the file it was read from

@@ -60,7 +60,20 @@ Simulation<2> struck_block_on_a_layer() {
   return simulation;
 }
 
-constexpr std::array blocks{struck_block, struck_block_in_reference, struck_block_on_a_layer};
+/// The same block run into by a rough plate that moves.
+Simulation<2> block_and_plate() {
+  Simulation<2> simulation = struck_block();
+  RigidBody<2> plate;
+  plate.contact.law = {.stiffness = 8e6, .damping = 0.1, .friction = 0.3, .adhesion = 50.0, .sticking_stiffness = 3e6, .reach = 0.5, .lennard_jones = {}};
+  plate.start = {{0.03, -0.05}, {0.09, -0.05}, {0.1, -0.001}, {0.02, -0.001}};
+  plate.outline = Outline<2>::through(plate.start, 0.0);
+  plate.displacement = [](double t) { return Vector<2>(0.5 * t, 1.5 * t); };
+  plate.velocity = [](double) { return Vector<2>(0.5, 1.5); };
+  simulation.body.rigid_bodies.push_back(plate);
+  return simulation;
+}
+
+constexpr std::array blocks{struck_block, struck_block_in_reference, struck_block_on_a_layer, block_and_plate};
 
 /// Every field of the table, bit for bit.
 bool same(const Simulation<2>& a, const Simulation<2>& b) {
@@ -92,7 +105,7 @@ std::string message_of(F&& run) {
 }  // namespace
 
 TEST_CASE("a restart from a checkpoint is bit for bit the run that was never stopped", "[simulation]") {
-  const auto block = blocks[GENERATE(0u, 1u, 2u)];
+  const auto block = blocks[GENERATE(0u, 1u, 2u, 3u)];
   Simulation<2> whole = block();
   whole.start();
   for (int k = 0; k < 150; ++k) whole.step(1.0);
@@ -109,7 +122,7 @@ TEST_CASE("a restart from a checkpoint is bit for bit the run that was never sto
 }
 
 TEST_CASE("one and several threads give the same bits", "[simulation]") {
-  const auto block = blocks[GENERATE(0u, 1u, 2u)];
+  const auto block = blocks[GENERATE(0u, 1u, 2u, 3u)];
   const auto run = [block](int threads) {
     omp_set_num_threads(threads);
     Simulation<2> simulation = block();

@@ -1,0 +1,125 @@
+#include "solver/coupled_simulation.hpp"
+
+#include <stdexcept>
+
+namespace furrow {
+
+void CoupledSimulation::couple() {
+  if (surface.ids.size() != surface.start.size()) throw std::invalid_argument("a surface has one start a node");
+  outline_ = Outline<2>::through(surface.start, surface.radius);
+  if (single_rate) {
+    soft.control.largest = 0.9 * step_length(stiff.body, 0.0, stiff.control).dt;   // what bending squeezes makes its step shorter
+    soft.control.fixed = true;
+  }
+  stiff.body.loads.held.ids.clear();
+  for (const std::int32_t id : surface.ids)
+    if (id != BodySurface::rigid) stiff.body.loads.held.ids.push_back(id);
+  stiff.body.loads.held.forces.assign(stiff.body.loads.held.ids.size(), Vector<2>::Zero());
+  soft.body.neighbour_body = [this](double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration) {
+    return look(time, velocity, acceleration);
+  };
+}
+
+Body<2>::Exchange CoupledSimulation::look(double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration) {
+  if (!started_) {
+    stiff.start();
+    started_ = true;
+    reaction_ = reaction();
+    stone_force_ = stone_force();
+  } else {
+    advance_stiff(time);
+  }
+  place_outline(time);
+  const auto touch = contact.touch(soft.body.particles, soft.body.spacing, time, velocity, acceleration, outline_,
+                                   [this](std::size_t i) { return !soft.body.is_in_layer(i); });
+  impulses_.soil -= 0.5 * previous_dt_ * touch.force;
+  impulses_.pending = 0.5 * previous_dt_ * touch.force;
+  return {touch.power, touch.surface_power};
+}
+
+void CoupledSimulation::advance_stiff(double time) {
+  if (stiff.steps() == 0) initial_energy_ = soft.energy().total() + stiff.energy().total();
+  const double dt = time - stiff.time(), factor = 0.5 * (previous_dt_ + dt) / dt;
+  HeldForces<2>& held = stiff.body.loads.held;
+  Vector<2> on_particles = Vector<2>::Zero(), on_rigid = Vector<2>::Zero();
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < surface.ids.size(); ++k) {
+    const Vector<2> force = factor * outline_.force[k];
+    if (surface.ids[k] == BodySurface::rigid) {
+      on_rigid += force;
+    } else {
+      held.forces[next++] = force;
+      on_particles += force;
+    }
+  }
+  impulses_.contact += dt * on_particles;
+  impulses_.rigid += dt * on_rigid;
+  impulses_.soil -= 0.5 * dt / factor * (on_particles + on_rigid);
+  previous_dt_ = dt;
+  if (surface.velocity) actuator_work_ -= dt * on_rigid.dot(surface.velocity(time));
+
+  stiff.run_until(time, [this](const Simulation<2>& s) {
+    const Vector<2> reaction_before = reaction_, stone_before = stone_force_;
+    reaction_ = reaction();
+    stone_force_ = stone_force();
+    impulses_.actuator -= 0.5 * s.dt() * (reaction_before + reaction_);
+    impulses_.stones -= 0.5 * s.dt() * (stone_before + stone_force_);
+    if (surface.velocity) actuator_work_ -= 0.5 * s.dt() * (reaction_before + reaction_).dot(surface.velocity(s.time()));
+    if (observe_stiff) observe_stiff(s);
+  });
+}
+
+void CoupledSimulation::place_outline(double time) {
+  const Particles<2>& p = stiff.body.particles;
+  for (std::size_t k = 0; k < surface.ids.size(); ++k) {
+    if (surface.ids[k] == BodySurface::rigid) {
+      outline_.position[k] = surface.start[k] + surface.displacement(time);
+      outline_.velocity[k] = surface.velocity(time);
+    } else {
+      const std::size_t i = stiff.body.index_of(surface.ids[k]);
+      outline_.position[k] = p.position[i];
+      outline_.velocity[k] = p.velocity[i];
+    }
+  }
+}
+
+Vector<2> CoupledSimulation::reaction() const {
+  Vector<2> sum = Vector<2>::Zero();
+  for (const Vector<2>& r : stiff.body.reactions()) sum += r;
+  return sum;
+}
+
+Vector<2> CoupledSimulation::stone_force() const {
+  Vector<2> sum = Vector<2>::Zero();
+  for (const RigidBody<2>& stone : stiff.body.rigid_bodies) sum += stone.contact.last().force;
+  return sum;
+}
+
+Vector<2> CoupledSimulation::actuator_force() const {
+  Vector<2> sum = reaction_;
+  for (std::size_t k = 0; k < surface.ids.size(); ++k)
+    if (surface.ids[k] == BodySurface::rigid) sum += outline_.force[k];
+  return sum;
+}
+
+double CoupledSimulation::energy_error() const {
+  return stiff.steps() == 0 ? 0.0 : soft.energy().total() + stiff.energy().total() - initial_energy_;
+}
+
+CoupledSimulation::Memory CoupledSimulation::memory() const {
+  return {contact.memory(), impulses_, actuator_work_, previous_dt_, initial_energy_, reaction_, stone_force_, outline_.force};
+}
+
+void CoupledSimulation::remember(const Memory& memory) {
+  contact.remember(memory.contact);
+  impulses_ = memory.impulses;
+  actuator_work_ = memory.actuator_work;
+  previous_dt_ = memory.previous_dt;
+  initial_energy_ = memory.initial_energy;
+  reaction_ = memory.reaction;
+  stone_force_ = memory.stone_force;
+  outline_.force = memory.node_force;
+  started_ = true;
+}
+
+}  // namespace furrow
