@@ -1,5 +1,6 @@
 #include "solver/coupled_simulation.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace furrow {
@@ -15,6 +16,13 @@ void CoupledSimulation::couple() {
   for (const std::int32_t id : surface.ids)
     if (id != BodySurface::rigid) stiff.body.loads.held.ids.push_back(id);
   stiff.body.loads.held.forces.assign(stiff.body.loads.held.ids.size(), Vector<2>::Zero());
+  driven_.clear();
+  for (const std::int32_t id : stiff.body.loads.held.ids) {
+    bool driven = false;
+    for (const PrescribedMotion<2>& motion : stiff.body.loads.motions)
+      driven = driven || std::find(motion.ids.begin(), motion.ids.end(), id) != motion.ids.end();
+    driven_.push_back(driven ? 1 : 0);
+  }
   soft.body.neighbour_body = [this](double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration) {
     return look(time, velocity, acceleration);
   };
@@ -40,7 +48,6 @@ Body<2>::Exchange CoupledSimulation::look(double time, std::span<const Vector<2>
 void CoupledSimulation::advance_stiff(double time) {
   if (stiff.steps() == 0) initial_energy_ = soft.energy().total() + stiff.energy().total();
   const double dt = time - stiff.time(), factor = 0.5 * (previous_dt_ + dt) / dt;
-  HeldForces<2>& held = stiff.body.loads.held;
   Vector<2> on_particles = Vector<2>::Zero(), on_rigid = Vector<2>::Zero();
   std::size_t next = 0;
   for (std::size_t k = 0; k < surface.ids.size(); ++k) {
@@ -48,7 +55,7 @@ void CoupledSimulation::advance_stiff(double time) {
     if (surface.ids[k] == BodySurface::rigid) {
       on_rigid += force;
     } else {
-      held.forces[next++] = force;
+      change_held(next++, force);
       on_particles += force;
     }
   }
@@ -67,6 +74,18 @@ void CoupledSimulation::advance_stiff(double time) {
     if (surface.velocity) actuator_work_ -= 0.5 * s.dt() * (reaction_before + reaction_).dot(surface.velocity(s.time()));
     if (observe_stiff) observe_stiff(s);
   });
+}
+
+void CoupledSimulation::change_held(std::size_t k, const Vector<2>& force) {
+  HeldForces<2>& held = stiff.body.loads.held;
+  // The half kick that comes first takes the acceleration of the last look: it must be that of the new force already.
+  const Vector<2> change = force - held.forces[k];
+  const std::size_t i = stiff.body.index_of(held.ids[k]);
+  if (driven_[k])
+    reaction_ += change;
+  else
+    stiff.body.particles.acceleration[i] += change / stiff.body.particles.mass[i];
+  held.forces[k] = force;
 }
 
 void CoupledSimulation::place_outline(double time) {
@@ -107,7 +126,8 @@ double CoupledSimulation::energy_error() const {
 }
 
 CoupledSimulation::Memory CoupledSimulation::memory() const {
-  return {contact.memory(), impulses_, actuator_work_, previous_dt_, initial_energy_, reaction_, stone_force_, outline_.force};
+  return {contact.memory(), impulses_, actuator_work_, previous_dt_, initial_energy_, reaction_, stone_force_, outline_.force,
+          stiff.body.loads.held.forces};
 }
 
 void CoupledSimulation::remember(const Memory& memory) {
@@ -119,6 +139,7 @@ void CoupledSimulation::remember(const Memory& memory) {
   reaction_ = memory.reaction;
   stone_force_ = memory.stone_force;
   outline_.force = memory.node_force;
+  stiff.body.loads.held.forces = memory.held_force;
   started_ = true;
 }
 

@@ -66,7 +66,7 @@ class CoupledSimulation {
     Impulses impulses;
     double actuator_work = 0.0, previous_dt = 0.0, initial_energy = 0.0;
     Vector<2> reaction = Vector<2>::Zero(), stone_force = Vector<2>::Zero();
-    std::vector<Vector<2>> node_force;
+    std::vector<Vector<2>> node_force, held_force;
   };
   Memory memory() const;
   void remember(const Memory& memory);
@@ -74,12 +74,15 @@ class CoupledSimulation {
  private:
   Body<2>::Exchange look(double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration);
   void advance_stiff(double time);
+  /// A new held force on the k-th particle that has one.
+  void change_held(std::size_t k, const Vector<2>& force);
   void place_outline(double time);
   Vector<2> reaction() const;
   Vector<2> stone_force() const;
 
   Outline<2> outline_;
   Impulses impulses_;
+  std::vector<std::uint8_t> driven_;   ///< by held force: whether its particle is moved by the actuator
   bool started_ = false;
   double previous_dt_ = 0.0, actuator_work_ = 0.0, initial_energy_ = 0.0;
   Vector<2> reaction_ = Vector<2>::Zero(), stone_force_ = Vector<2>::Zero();

@@ -67,7 +67,7 @@ ContactLaw read_contact(const Parameters& input, const Bed& bed, const Blade& bl
   return contact;
 }
 
-Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution) {
+Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution, const std::optional<std::pair<Vector<2>, double>>& disc) {
   Body<2> body;
   body.name = "soil";
   body.material = bed.soil.law;
@@ -77,7 +77,9 @@ Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resoluti
   body.loads.gravity = {0.0, -bed.gravity};
   if (blade.gap > body.spacing)
     throw std::invalid_argument(fmt::format("the gap of {:g} m between blade and soil is larger than the spacing of {:g} m", blade.gap, body.spacing));
-  body.add(rectangle({0.0, 0.0}, bed.length, bed.height, body.spacing));
+  std::vector<Vector<2>> centres = rectangle({0.0, 0.0}, bed.length, bed.height, body.spacing);
+  if (disc) std::erase_if(centres, [&](const Vector<2>& x) { return (x - disc->first).norm() < disc->second + 0.5 * body.spacing; });
+  body.add(centres);
   body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {1.0, 0.0}}});
   const double dx = body.spacing;
   add_flat_layer(body, "floor", {0.0, 0.0}, {bed.length + 4.0 * dx, 0.0}, Slip::none);
@@ -96,9 +98,12 @@ std::vector<Vector<2>> outline_of(const Bed& bed, const Blade& blade) {
 }
 
 void check_start(const Body<2>& soil, const Outline<2>& outline, const Blade& blade, double range) {
+  std::vector<std::uint8_t> in_layer(soil.particles.size(), 0);   // not known to the body before its neighbours are
+  for (const BoundaryLayer<2>& layer : soil.layers)
+    for (const std::int32_t id : layer.ids) in_layer[static_cast<std::size_t>(id)] = 1;
   bool on_the_way = false;
   for (std::size_t i = 0; i < soil.particles.size(); ++i) {
-    if (soil.is_in_layer(i)) continue;
+    if (in_layer[static_cast<std::size_t>(soil.particles.id[i])]) continue;
     const Vector<2>& x = soil.particles.position[i];
     if (nearest_point(outline, x).distance < range - 1e-9 * soil.spacing)
       throw std::invalid_argument(fmt::format("the blade stands in the soil at the start: at ({:.6g}, {:.6g}) m", x[0], x[1]));

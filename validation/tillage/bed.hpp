@@ -41,8 +41,9 @@ Blade read_blade(const Parameters& input, const Bed& bed);
 /// How contact answers.
 ContactLaw read_contact(const Parameters& input, const Bed& bed, const Blade& blade);
 
-/// The body of soil, at rest.
-Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution);
+/// The body of soil, at rest, without what a disc (centre and radius) fills.
+Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution,
+                  const std::optional<std::pair<Vector<2>, double>>& disc = std::nullopt);
 
 /// The blade's outline at the start, anticlockwise from the edge.
 std::vector<Vector<2>> outline_of(const Bed& bed, const Blade& blade);

@@ -1,0 +1,59 @@
+// Stages of a cutting force: what a mechanician would call rise, yield, hardening, peak with fracture and decline, by a written
+// definition.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace furrow::tillage_cases {
+
+/// A force over time with the state of the tool beside it, at the same times.
+struct ForceHistory {
+  std::vector<double> time;             ///< s, rising
+  std::vector<double> force;            ///< N/m
+  std::vector<double> plastic_strain;   ///< greatest in the tool
+  std::vector<double> failed;           ///< number of failed particles of the tool
+};
+
+/// The definition's numbers.
+struct StageDefinition {
+  double filter = 0.0;              ///< s: width of the centred mean F that everything is read from
+  double onset = 0.05;              ///< share of the greatest F at which the rise begins
+  double plastic_onset = 1e-3;      ///< plastic strain from which a tool counts as yielding
+  double slope_drop = 0.5;          ///< yield shows where F then climbs less than this share of the slope of the rise
+  double strengthening = 0.05;      ///< F must grow by this share between yield and peak
+  double fall = 0.5;                ///< share of the peak that F falls below, and stays below, in a decline
+};
+
+struct Stage {
+  std::string_view name;
+  bool present = false;
+  double begin = 0.0, end = 0.0;            ///< s
+  double force_begin = 0.0, force_end = 0.0;   ///< of the mean F
+  std::string reason;                       ///< why it is absent
+};
+
+/// rise, yield, hardening, peak, decline.
+///
+/// rise: from F = onset of its greatest to the cause of the next stage, or where there is none to the greatest F.
+/// yield: begins when the greatest plastic strain passes plastic_onset, and shows: the slope of F over the next half of the time
+///   that the rise took is less than slope_drop of the mean slope of the rise. It ends with the lowest F in that time.
+/// hardening: from the end of yield to the peak, F growing by `strengthening` at least.
+/// peak: the greatest F after yield, with fracture: particles have failed before F has fallen below `fall` of it, and the first has
+///   failed no later than one filter width after F began to fall for good.
+/// decline: F falls below `fall` of the peak after fracture and stays there until the end.
+/// A stage without its cause in the tool is absent: a drop of the force alone, as where the first chip shears off at the free face, is
+/// no yield. Throws std::invalid_argument for histories of different lengths, times that do not rise, or a filter that is not
+/// positive.
+std::array<Stage, 5> force_stages(const ForceHistory& history, const StageDefinition& definition);
+
+/// The centred mean over `width`, the window cut at the ends.
+std::vector<double> smoothed(const std::vector<double>& time, const std::vector<double>& value, double width);
+
+/// "rise 0.1-0.8 ms, yield absent (no plastic strain), ..."
+std::string in_words(const std::array<Stage, 5>& stages);
+
+}  // namespace furrow::tillage_cases
