@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import jinja2
 
-from reports import changes, numbers, results, summary, trends, validation, view
+from reports import changes, claims, numbers, results, summary, trends, validation, view
 from reports.figures import history, ladder, lines, particles, snapshot
 
 HERE = Path(__file__).resolve().parent
@@ -194,6 +194,8 @@ def _write(run, work, jobs):
     drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance, since.curves.get(case.id))
              for case in run.cases}
     compared = validation.groups(run)
+    # A run without the family that is about the paper's own case has no page of its claims.
+    ledger = claims.judge(claims.load(), run) if any(case.family == "tillage" for case in run.cases) else []
     scatter = [Figure(f"figures/validation/{slug(data['name'])}.svg", data["title"], data["caption"],
                       f"{data['y']['label']} over {data['x']['label']}.", lines.draw, (data, stamp(run.provenance)))
                for data in validation.figures(compared)]
@@ -213,7 +215,7 @@ def _write(run, work, jobs):
         sparkline=trends.sparkline, trend_name=trends.name, trend_last=trends.last,
         is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run),
-              "compared": compared, "changes": since, "trends": course}
+              "compared": compared, "changes": since, "trends": course, "ledger": ledger}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
     if since:
         (work / "changes.html").write_text(environment.get_template("changes.html").render(
@@ -224,6 +226,9 @@ def _write(run, work, jobs):
     if compared:
         (work / "validation.html").write_text(environment.get_template("validation.html").render(
             root="", groups=compared, figures=scatter, signed=view.signed, share=view.share, **common), encoding="utf-8")
+    if ledger:
+        (work / "claims.html").write_text(environment.get_template("claims.html").render(
+            root="", claims=ledger, counts=claims.counts(ledger), **common), encoding="utf-8")
     page = environment.get_template("case.html")
     for i, case in enumerate(run.cases):
         convergence, series, pictures, own = drawn[case.page]

@@ -72,6 +72,7 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
       external_power_ += p.mass[i] * a.dot(velocity[i]);
     }
   }
+  if (!loads.held.ids.empty()) has_run(Module::held_forces);
   for (std::size_t k = 0; k < loads.held.ids.size(); ++k) {
     const std::size_t i = index_of(loads.held.ids[k]);
     p.acceleration[i] += loads.held.forces[k] / p.mass[i];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 void CoupledSimulation::couple() {
@@ -38,6 +40,7 @@ Body<2>::Exchange CoupledSimulation::look(double time, std::span<const Vector<2>
     advance_stiff(time);
   }
   place_outline(time);
+  has_run(Module::coupled_simulation);
   const auto touch = contact.touch(soft.body.particles, soft.body.spacing, time, velocity, acceleration, outline_,
                                    [this](std::size_t i) { return !soft.body.is_in_layer(i); });
   impulses_.soil -= 0.5 * previous_dt_ * touch.force;

@@ -2,10 +2,13 @@
 
 #include <cmath>
 
+#include "solver/modules.hpp"
+
 namespace furrow {
 
 template <int Dim>
 void Contact<Dim>::begin(std::size_t particles, double time) {
+  has_run(Module::contact);
   if (stretch_.size() != particles) stretch_.resize(particles, Vector<Dim>::Zero());
   dt_ = time - time_;
   time_ = time;
