@@ -18,6 +18,7 @@ inline constexpr PythonCommand python_commands[] = {
     {"nightly", "night", "Run the nightly tier, remember every number of it, and tell in one screen what moved"},
     {"history", "night", "What was measured, night by night, and since which commit it is different"},
     {"defects", "defects", "Plant defects in a copy of the code and see which case catches each"},
+    {"figures", "reports.paper", "Draw the paper's Table 1 and figures from results, running the cases that are missing"},
     {"noise", "gate", "Measure from several runs of one commit how far each metric moves without a cause"},
 };
 

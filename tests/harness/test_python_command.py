@@ -5,7 +5,7 @@ import pytest
 from tests.harness.program import FURROW, run
 
 
-@pytest.mark.parametrize("command", ["gate", "bless", "noise", "nightly", "history", "defects"])
+@pytest.mark.parametrize("command", ["gate", "bless", "noise", "nightly", "history", "defects", "figures"])
 def test_help_comes_from_the_command_itself(tmp_path, command):
     ended = run(FURROW, command, "--help", cwd=tmp_path)
     assert ended.returncode == 0 and f"usage: ./furrow {command}" in ended.stdout and "Example: ./furrow" in ended.stdout

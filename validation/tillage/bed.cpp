@@ -138,9 +138,17 @@ void picture(Run& run, const Body<2>& soil, const std::vector<std::pair<std::str
     series.colour.push_back(value(i));
   }
   figure.add(std::move(series));
+  // The tool's outline as points of no value, half a spacing apart: a figure of particles has a colour for each of its points.
   for (const auto& [label, nodes] : outlines) {
     Series outline{.label = label, .role = "bound"};
-    for (const Vector<2>& x : nodes) outline.x.push_back(x[0]), outline.y.push_back(x[1]);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const Vector<2>&a = nodes[k], &b = nodes[(k + 1) % nodes.size()];
+      const int points = std::max(1, static_cast<int>((b - a).norm() / (0.5 * soil.spacing)));
+      for (int l = 0; l < points; ++l) {
+        const Vector<2> x = a + (b - a) * l / points;
+        outline.x.push_back(x[0]), outline.y.push_back(x[1]), outline.colour.push_back(0.0);
+      }
+    }
     figure.add(std::move(outline));
   }
 }

@@ -21,6 +21,7 @@ CoupledSetup read_coupled(const Parameters& input) {
                      .stone_contact = {},
                      .end_time = blade.travel / blade.speed,
                      .single_rate = input.flag_or("single_rate", false),
+                     .snapshots = static_cast<int>(input.integer_or("snapshots", 14, 1, 1000)),
                      .rows = static_cast<int>(input.integer_or("rows", 700, 10, 100'000))};
   // Metal on stone: the stone is as stiff as a layer of the tool's particles.
   setup.stone_contact.stiffness = setup.tool.bulk_modulus + 4.0 / 3.0 * setup.tool.shear_modulus;
@@ -106,7 +107,7 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& s) {
     furrow::write_snapshot(file, particle_snapshot(coupled.stiff.body.particles, coupled.stiff.time()));
     run.file("snapshots", file);
   });
-  dynamic.until(s.end_time, s.rows, 14);
+  dynamic.until(s.end_time, s.rows, s.snapshots);
   exercise(run, s.bed.scheme);
   exercise(run, s.tool.scheme);
   for (const char* module : {"materials/drucker_prager", "boundaries/boundary_layer", "boundaries/contact", "boundaries/prescribed_motion", "coupled_simulation"})
@@ -149,9 +150,7 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& s) {
 
   // Pictures at the end.
   const Body<2>& soil = soft.body;
-  std::vector<Vector<2>> closed = coupled.outline().position;
-  closed.push_back(closed.front());
-  const std::vector<std::pair<std::string, std::vector<Vector<2>>>> outlines{{"tool", closed}};
+  const std::vector<std::pair<std::string, std::vector<Vector<2>>>> outlines{{"tool", coupled.outline().position}};
   picture(run, soil, outlines, "plastic-strain", "Equivalent plastic strain of the soil", {"eps_p", "1"}, [&](std::size_t i) { return soil.particles.plastic_strain[i]; });
   picture(run, soil, outlines, "displacement", "Displacement of the soil", {"|u|", "m"},
           [&](std::size_t i) { return (soil.particles.position[i] - soil.particles.reference_position[i]).norm(); });

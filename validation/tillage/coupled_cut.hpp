@@ -15,6 +15,7 @@ struct CoupledSetup {
   ContactLaw stone_contact;   ///< of the tool with the stone
   double end_time;            ///< s
   bool single_rate;
+  int snapshots;
   int rows;                   ///< of the history
 };
 CoupledSetup read_coupled(const Parameters& input);
@@ -45,7 +46,7 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& setup);
 /// Mean of a column over times from `from` to `to`, s.
 double mean_over(const CoupledHistory& history, const std::vector<double>& column, double from, double to);
 
-/// Stages of the whole force on the tool along its normal; the filter is `travel` long, in m.
+/// Stages of the whole force on the tool along its normal; the filter is `filter_time` long, in s.
 std::array<Stage, 5> stages_of(const CoupledHistory& history, double filter_time);
 void stage_figure(Run& run, const CoupledHistory& history, const std::array<Stage, 5>& stages, double filter_time);
 
