@@ -15,11 +15,12 @@ using namespace furrow;
 
 namespace {
 
+constexpr double speed = 2.0;   // m/s, of the bar
+
 /// A soft block that rests nowhere is struck by a stiff, heavy bar, driven at one end. The bar's outline goes through its outermost
 /// particles and two points of the rigid part behind it.
 std::unique_ptr<CoupledSimulation> bar_and_block() {
   auto coupled = std::make_unique<CoupledSimulation>();
-  constexpr double speed = 2.0;
   Body<2>& soil = coupled->soft.body;
   soil.name = "soil";
   soil.material = LinearElastic::from_young(1500.0, 2e6, 0.25);

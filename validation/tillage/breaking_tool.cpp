@@ -65,6 +65,7 @@ Problem breaking_tool(const Parameters& input) {
     run.measure("momentum_error", result.momentum_error);
     run.measure("exchange_error", result.exchange_error);
     run.measure("sub_steps", result.sub_steps);
+    run.measure("gain", result.gain);
     stage_figure(run, h, stages, filter);
     Figure& figure = run.figure({.name = "moment", .title = "Moment at the clamp", .x = {"time", "s"}, .y = {"moment per width", "N"}});
     figure.add({.label = "computed", .x = h.time, .y = h.moment});

@@ -160,6 +160,8 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& s) {
   Figure& tip = run.figure({.name = "deflection", .title = "Deflection of the tool's end", .x = {"time", "s"}, .y = {"deflection", "m"}});
   tip.add({.label = "computed", .x = h.time, .y = h.deflection});
   tip.add({.label = "cantilever under the same forces", .role = "reference", .x = h.time, .y = h.beam});
+  result.gain = static_cast<double>(result.soil_particles + result.tool_particles) /
+                (static_cast<double>(result.tool_particles) + static_cast<double>(result.soil_particles) / result.sub_steps);
   return result;
 }
 

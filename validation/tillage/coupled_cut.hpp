@@ -39,6 +39,7 @@ struct CoupledResult {
   double momentum_error;        ///< of the tool: its momentum less all impulses, over the actuator's impulse
   double exchange_error;        ///< impulses of soil and tool together, over the tool's
   double sub_steps;             ///< tool steps per soil step
+  double gain;                  ///< bound on what sub-steps save, (N_s + N_t)/(N_t + N_s/n) by numbers of particles
   long soil_particles, tool_particles;
 };
 CoupledResult coupled_cut(Run& run, const CoupledSetup& setup);

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "reference/exact/beam.hpp"
+#include "reference/exact/elastic_plastic.hpp"
+#include "reference/exact/plasticity.hpp"
 #include "validation/tillage/coupled_cut.hpp"
 #include "validation/tillage/problems.hpp"
 #include "validation/tillage/rigid_cut.hpp"
@@ -42,6 +44,18 @@ Problem elastic_tool(const Parameters& input) {
       if (F[k] < F[lowest]) lowest = k;
     run.measure("fall_after_it", F[lowest] / F[early]);
     run.measure("lowest_time", h.time[lowest], "s");
+    // What it would take: moments that a section of this metal can carry, over the greatest that the clamp has seen. The load of soil
+    // whose weight and inertia are small beside its strength grows with its cohesion.
+    const double greatest_moment = *std::max_element(h.moment.begin(), h.moment.end());
+    const double t = setup.blade.thickness;
+    if (const auto* law = std::get_if<JohnsonCook<MieGrueneisen>>(&setup.tool.material.law)) {
+      const double limit = exact::limit_moment(law->strength.A, t);
+      Table& table = run.table("what-would-it-take", "What it would take, by the moment at the clamp",
+                               {{"event"}, {"moment of the section", "N"}, {"over the greatest at the clamp"}, {"cohesion, were the load in proportion", "kPa"}});
+      const double c = exact::plane_strain_cohesion({setup.bed.soil.law.cone.alpha, setup.bed.soil.law.cone.k, setup.bed.soil.law.cone.beta});
+      for (const auto& [event, moment] : {std::pair{"first yield", limit / 1.5}, std::pair{"plastic hinge", limit}})
+        table.row({std::string(event), moment, moment / greatest_moment, 1e-3 * c * moment / greatest_moment});
+    }
     int found = 0;
     for (const Stage& stage : stages)
       if (stage.name != "rise" && stage.present) ++found;
@@ -53,6 +67,7 @@ Problem elastic_tool(const Parameters& input) {
     run.measure("momentum_error", result.momentum_error);
     run.measure("exchange_error", result.exchange_error);
     run.measure("sub_steps", result.sub_steps);
+    run.measure("gain", result.gain);
     Figure& figure = run.figure({.name = "rigid-beside", .title = "Elastic and rigid tool", .x = {"travel", "m"}, .y = {"draft per width", "N/m"}});
     figure.add({.label = "elastic", .x = h.travel, .y = h.draft});
     figure.add({.label = "rigid", .role = "bound", .x = rigid.history.travel, .y = rigid.history.draft});

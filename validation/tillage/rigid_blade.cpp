@@ -93,9 +93,9 @@ Problem speed_law(const Parameters& input) {
     const Law other = fit(other_speeds, others);
     // Means are good to 5 % each: an uncertainty of F_2 from those of the slowest and the fastest.
     const double reach = other_speeds.back() * other_speeds.back() - other_speeds.front() * other_speeds.front();
-    run.measure("F_0", computed.F_0, "N/m", {other.F_0, uncertainty * other.F_0});
-    run.measure("F_2", computed.F_2, "kg/m^2", {other.F_2, uncertainty * std::hypot(others.front(), others.back()) / reach});
-    run.measure("F_2_wedge", computed.F_2, "kg/m^2", {wedge.F_2, 0.0});
+    run.measure("f_0", computed.F_0, "N/m", {other.F_0, uncertainty * other.F_0});
+    run.measure("f_2", computed.F_2, "kg/m^2", {other.F_2, uncertainty * std::hypot(others.front(), others.back()) / reach});
+    run.measure("f_2_wedge", computed.F_2, "kg/m^2", {wedge.F_2, 0.0});
     Figure& figure = run.figure({.name = "speed", .title = "Mean draft over speed", .kind = "points", .x = {"speed", "m/s"}, .y = {"draft per width", "N/m"}});
     figure.add({.label = "computed", .x = speeds, .y = drafts});
     figure.add({.label = "material points", .role = "reference", .x = other_speeds, .y = others});

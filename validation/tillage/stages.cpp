@@ -64,11 +64,11 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
     yield.reason = hardening.reason = "no rise before it";
   } else {
     const double took = rise.end - rise.begin, slope = (rise.force_end - rise.force_begin) / took;
-    const std::size_t later = std::min(n - 1, first_where(plastic, [&](std::size_t k) { return h.time[k] >= rise.end + 0.5 * took; }));
+    const std::size_t later = std::min(n - 1, first_where(plastic, [&](std::size_t k) { return h.time[k] >= rise.end + std::max(0.5 * took, 3.0 * d.filter); }));
     const double then = later > plastic ? (F[later] - F[plastic]) / (h.time[later] - h.time[plastic]) : slope;
     if (then < d.slope_drop * slope) {
       const auto lowest = static_cast<std::size_t>(std::min_element(F.begin() + static_cast<std::ptrdiff_t>(plastic), F.begin() + static_cast<std::ptrdiff_t>(later) + 1) - F.begin());
-      set(yield, plastic, std::max(lowest, plastic));
+      set(yield, plastic, lowest > plastic ? lowest : later);
     } else {
       yield.reason = "the force climbs on as before";
     }

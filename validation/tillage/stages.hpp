@@ -40,7 +40,8 @@ struct Stage {
 ///
 /// rise: from F = onset of its greatest to the cause of the next stage, or where there is none to the greatest F.
 /// yield: begins when the greatest plastic strain passes plastic_onset, and shows: the slope of F over the next half of the time
-///   that the rise took is less than slope_drop of the mean slope of the rise. It ends with the lowest F in that time.
+///   that the rise took, three filter widths at least, is less than slope_drop of the mean slope of the rise. It ends with the lowest
+///   F in that time where F dips, and with that time where F only climbs more slowly.
 /// hardening: from the end of yield to the peak, F growing by `strengthening` at least.
 /// peak: the greatest F after yield, with fracture: particles have failed before F has fallen below `fall` of it, and the first has
 ///   failed no later than one filter width after F began to fall for good.

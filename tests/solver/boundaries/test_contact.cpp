@@ -172,7 +172,7 @@ TEST_CASE("a block sticks on a slope up to the angle of friction and slides beyo
     CHECK(flight.p.velocity[0].norm() < 5e-2);
   } else {
     const double a = 9.81 * (std::sin(angle) - friction * std::cos(angle));
-    CHECK(flight.p.velocity[0][0] == Approx(a * flight.time).epsilon(0.05));
+    CHECK(flight.p.velocity[0][0] == Approx(a * flight.time).margin(0.02));   // landing takes a little
     CHECK(flight.contact.slipped() == Approx(friction * 2.0 * 9.81 * std::cos(angle) * slide).epsilon(0.05));
   }
 }

@@ -96,6 +96,15 @@ TEST_CASE("a perfectly plastic tool does not harden", "[stages]") {
   CHECK_FALSE(stage(stages, "hardening").present);
 }
 
+TEST_CASE("a force that climbs on, but much more slowly, shows a yield without a dip", "[stages]") {
+  ForceHistory h = whole();
+  for (std::size_t k = 150; k <= 700; ++k) h.force[k] = 10e3 + 8e3 * (h.time[k] - 1.5e-3) / 5.5e-3;
+  const auto stages = force_stages(h, definition);
+  CHECK(stage(stages, "yield").present);
+  CHECK(stage(stages, "yield").end == Approx(2.3e-3).margin(0.03e-3));
+  CHECK(stage(stages, "hardening").present);
+}
+
 TEST_CASE("plastic strain that the force does not show is no yield", "[stages]") {
   ForceHistory h = whole();
   for (std::size_t k = 150; k <= 700; ++k) h.force[k] = 10e3 * (h.time[k] - 0.2e-3) / 1.3e-3;
