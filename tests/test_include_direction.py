@@ -15,6 +15,7 @@ LEVELS = [
     ["solver/body"],
     ["solver/integrators"],
     ["solver/simulation"],
+    ["solver/coupled_simulation"],
     ["solver/io"],
     ["harness"],
     ["verification", "validation"],

@@ -17,7 +17,7 @@ def tried(tmp_path, *assignments):
     ("parameters.gap.value=-0.5", "the blade would stand in the soil at the start"),
     ("parameters.gap.value=20", "the blade would not touch the soil"),
     ("parameters.depth.value=15", "expected less than the soil's height"),
-    ("parameters.tool.free_length.value=24.9", "expected less than the blade's length"),
+    ("parameters.tool.free_length.value=24.75", "expected less than the blade's length"),
     ("parameters.contact.lennard_jones={ coefficient = 4, cut_off = 1, steep = 4, flat = 12 }", "the force would attract"),
 ])
 def test_what_the_file_says_is_wrong(tmp_path, assignment, words):
