@@ -25,6 +25,9 @@ Scheme read_scheme(const Parameters& parameters) {
   Scheme scheme;
   scheme.kernel = *kernel_by_name(in.choice_or("kernel", "wendland_c2", kernel_names()));
   scheme.correction = read_correction(in);
+  scheme.dual_gradient = in.flag_or("dual_gradient", false);
+  if (scheme.dual_gradient && scheme.correction != Correction::none)
+    in.fail("dual_gradient", "has no meaning beside a correction: corrected gradients are the dual of their momentum sum already");
   scheme.least_span = in.number_or("least_span", scheme.least_span, {0.0, 1.0});
   const std::string density = in.choice_or("density", "continuity", {"continuity", "shepard", "summation", "constant"});
   scheme.density = density == "continuity" ? DensityEquation::continuity

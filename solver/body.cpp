@@ -141,6 +141,7 @@ void Body<Dim>::find_neighbours() {
   in_layer_.assign(n, 0);
   for (const BoundaryLayer<Dim>& layer : layers)
     for (const std::int32_t id : layer.ids) in_layer_[index_of(id)] = 1;
+  if (!layers.empty()) put_idle_layers_to_rest();
   if (scheme.correction == Correction::linear) linear_.resize(n);
   if (scheme.correction == Correction::quadratic) quadratic_.resize(n);
   ++builds_;
@@ -164,6 +165,24 @@ void Body<Dim>::build_reference() {
   velocity_gradient_.assign(n, Matrix<Dim>::Zero());
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
   make_correction();
+}
+
+template <int Dim>
+void Body<Dim>::put_idle_layers_to_rest() {
+  const std::size_t n = particles.size();
+  // Images of a particle are what it is. Twice: what soil sees, and what such a particle of a layer sees.
+  std::vector<double> seen(n + images.size(), 0.0);
+  std::vector<std::uint8_t> sees(n);
+  for (std::size_t i = 0; i < n; ++i) seen[i] = is_in_layer(i) ? 0.0 : 1.0;
+  for (int reach = 0; reach < 2; ++reach) {
+    images.fill(std::span(seen));
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto row = neighbours_.row(i);
+      sees[i] = seen[i] != 0.0 || std::any_of(row.begin(), row.end(), [&](std::int32_t j) { return seen[static_cast<std::size_t>(j)] != 0.0; });
+    }
+    std::copy(sees.begin(), sees.end(), seen.begin());
+  }
+  drop_rows(neighbours_, sees);
 }
 
 template <int Dim>
@@ -263,6 +282,16 @@ CorrectionView<Dim> Body<Dim>::view_of_correction() const {
 }
 
 template <int Dim>
+void Body<Dim>::plain_velocity_gradient(double dt) {
+  const Particles<Dim>& p = particles;
+  if (!scheme.dual_gradient || scheme.correction != Correction::none)
+    return furrow::velocity_gradient<Dim>(stencil(), volume_, p.velocity, linear_, velocity_gradient_);
+  // L_i = 1/rho_i sum_j m_j (v_j - v_i) (x) grad_i W_ij, whose power with the stress is that of Eqs 8 and 10 whatever the densities.
+  furrow::velocity_gradient<Dim>(stencil(), p.mass, p.velocity, {}, velocity_gradient_);
+  for_all(p.size(), [&](std::size_t i) { velocity_gradient_[i] /= p.density[i] + 0.5 * dt * p.density_rate[i]; });
+}
+
+template <int Dim>
 double Body<Dim>::respond(double dt, std::int64_t step) {
   Particles<Dim>& p = particles;
   const Stencil<Dim> s = stencil();
@@ -270,7 +299,7 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.
   correction(0.5 * dt);
   if (scheme.correction != Correction::quadratic)
-    furrow::velocity_gradient<Dim>(s, volume_, p.velocity, linear_, velocity_gradient_);
+    plain_velocity_gradient(dt);
   else if constexpr (Dim == 2)
     quadratic_velocity_gradient<Dim>(s, volume_, p.velocity, quadratic_, velocity_gradient_);
   return_velocities(p.velocity);
@@ -345,6 +374,17 @@ void Body<Dim>::prescribe(double time, std::span<Vector<Dim>> velocity) const {
     const Vector<Dim> v = layer.velocity(time);
     for (const std::int32_t id : layer.ids) velocity[index_of(id)] = v;
   }
+}
+
+template <int Dim>
+double Body<Dim>::prescribed_kinetic_energy(double time) const {
+  double energy = 0.0;
+  for (const PrescribedMotion<Dim>& motion : loads.motions) {
+    double mass = 0.0;
+    for (const std::int32_t id : motion.ids) mass += particles.mass[index_of(id)];
+    energy += 0.5 * mass * motion.velocity(time).squaredNorm();
+  }
+  return energy;
 }
 
 template class Body<2>;

@@ -69,6 +69,8 @@ class Body {
 
   /// Sets the velocity of prescribed particles and of boundary layers.
   void prescribe(double time, std::span<Vector<Dim>> velocity) const;
+  /// Kinetic energy of the particles whose motion is prescribed, J: what sets them in motion did this work.
+  double prescribed_kinetic_energy(double time) const;
 
   std::size_t index_of(std::int32_t id) const { return static_cast<std::size_t>(index_of_id_[static_cast<std::size_t>(id)]); }
   const NeighbourList& neighbours() const { return neighbours_; }
@@ -96,6 +98,9 @@ class Body {
   bool neighbours_are_stale() const;
   void find_neighbours();
   void fill_images();
+  /// Particles of layers that neither soil nor a layer's particle in reach of soil can see have no neighbours: nothing that their
+  /// sums could give is read.
+  void put_idle_layers_to_rest();
   LayerSurroundings<Dim> layer_surroundings();
   /// Gives the particles of layers the velocities that sums over pairs see, and takes them away again. Artificial viscosity sees
   /// every surface as smooth: what it would hold back along a rough one is not the soil's friction.
@@ -107,6 +112,8 @@ class Body {
   /// Volumes and corrections for where particles are now, their densities `ahead` of what they are (s).
   CorrectionView<Dim> correction(double ahead);
   void make_correction();
+  /// Without correction or with a linear one, in the middle of a step of dt.
+  void plain_velocity_gradient(double dt);
   CorrectionView<Dim> view_of_correction() const;
   bool in_reference_frame() const { return scheme.frame == Frame::reference; }
   void build_reference();

@@ -108,6 +108,8 @@ void Simulation<Dim>::account(double dt) {
   energy_.artificial += 0.5 * dt * (before.artificial + powers_.artificial);
   energy_.damping += 0.5 * dt * (before.damping + powers_.damping);
   energy_.external += 0.5 * dt * (before.external + powers_.external);
+  if (!body.loads.motions.empty())
+    energy_.external += body.prescribed_kinetic_energy(time_) - body.prescribed_kinetic_energy(time_ - dt);
   energy_.contact += 0.5 * dt * (before.friction + powers_.friction);
   energy_.viscous += 0.5 * dt * (before.layer_viscous + powers_.layer_viscous);
   energy_.layer += 0.5 * dt * (before.layer + powers_.layer);

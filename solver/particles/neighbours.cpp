@@ -179,6 +179,20 @@ void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>
   for (std::size_t t = 0; t < used.size(); ++t) out = std::copy_n(list.blocks[t].begin(), used[t], out);
 }
 
+void drop_rows(NeighbourList& list, std::span<const std::uint8_t> keep) {
+  std::int64_t end = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::int64_t first = list.begin[i], size = keep[i] ? list.begin[i + 1] - first : 0;
+    // begin[i + 1] is read before it is written, and rows only move towards the front.
+    std::copy_n(list.index.begin() + first, size, list.index.begin() + end);
+    list.begin[i] = end;
+    end += size;
+    if (!keep[i]) list.count[i] = 0;
+  }
+  list.begin[list.size()] = end;
+  list.index.resize(static_cast<std::size_t>(end));
+}
+
 #define FURROW_INSTANTIATE(Dim)                                                                              \
   template struct CellGrid<Dim>;                                                                             \
   template CellOrder order_by_cell<Dim>(const CellGrid<Dim>&, std::span<const Vector<Dim>>);                 \

@@ -61,4 +61,7 @@ void build_neighbours(const CellGrid<Dim>& grid, const std::vector<std::int32_t>
   build_neighbours<Dim>(grid, cell_begin, {}, position, position.size(), reach, list);
 }
 
+/// Empties the rows of particles that are not kept (keep[i] == 0); those of the others stay as they are.
+void drop_rows(NeighbourList& list, std::span<const std::uint8_t> keep);
+
 }  // namespace furrow

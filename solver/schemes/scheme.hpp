@@ -39,6 +39,7 @@ struct Scheme {
   AnyKernel kernel = WendlandC2{};
   double smoothing_ratio = 1.5;                          ///< h/dx
   Correction correction = Correction::linear;
+  bool dual_gradient = false;                            ///< without correction: m_j/rho_i for the paper's m_j/rho_j in Eqs 12, 13
   double least_span = 1e-4;                              ///< below which a linear correction is none (kernel_correction.hpp)
   DensityEquation density = DensityEquation::continuity;
   int shepard_every = 0;                                 ///< steps between re-normalisations of the density by Eq. 7; 0 = never

@@ -104,6 +104,53 @@ std::string message_of(F&& run) {
 
 }  // namespace
 
+TEST_CASE("what sets prescribed particles in motion does work on them", "[simulation]") {
+  // The lower row of a block is pushed up from rest, ever faster: nothing that the block has comes from nowhere.
+  Simulation<2> simulation;
+  Body<2>& body = simulation.body;
+  body.material = LinearElastic::from_young(1000.0, 2e6, 0.3);
+  body.spacing = 0.01;
+  body.scheme.viscosity.reset();
+  body.add(rectangle({0.0, 0.0}, 0.08, 0.06, 0.01));
+  PrescribedMotion<2> push{"push", {}, [](double t) { return Vector<2>(0.0, 20.0 * t); }};
+  for (std::size_t i = 0; i < body.particles.size(); ++i)
+    if (body.particles.position[i][1] < 0.01) push.ids.push_back(body.particles.id[i]);
+  body.loads.motions.push_back(push);
+  simulation.control.courant = 0.1;
+  simulation.start();
+  simulation.run_until(0.01);
+  REQUIRE(body.prescribed_kinetic_energy(0.01) > 0.1 * simulation.energy().kinetic);
+  CHECK(std::abs(simulation.energy_imbalance()) < 1e-4);
+}
+
+TEST_CASE("layers far from soil cost nothing and change nothing", "[simulation]") {
+  // The same block over a floor that ends where it ends, and over one that goes on and on.
+  const auto over_floor = [](double length) {
+    Simulation<2> simulation = struck_block();
+    Body<2>& body = simulation.body;
+    body.images = {};
+    body.walls.clear();
+    body.scheme.xsph = 0.0;
+    body.scheme.shepard_every = 0;
+    body.loads.gravity = {0.0, -9.81};
+    add_flat_layer(body, "floor", {-0.15, 0.0}, {length, 0.0}, Slip::none);
+    simulation.start();
+    for (int k = 0; k < 100; ++k) simulation.step(1.0);
+    return simulation;
+  };
+  const Simulation<2> near = over_floor(0.35), far = over_floor(1.35);
+  std::size_t idle = 0;
+  for (const std::int32_t id : far.body.layers.front().ids)
+    if (far.body.neighbours().row(far.body.index_of(id)).empty()) ++idle;
+  CHECK(idle > far.body.layers.front().ids.size() / 2);
+  CHECK(far.energy().total() == Approx(near.energy().total()).epsilon(1e-12));
+  CHECK(far.body.layer_forces()[0][1] == Approx(near.body.layer_forces()[0][1]).epsilon(1e-9));
+  for (std::int32_t id = 0; id < 108; ++id) {
+    const auto a = near.body.index_of(id), b = far.body.index_of(id);
+    CHECK((near.body.particles.position[a] - far.body.particles.position[b]).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("a restart from a checkpoint is bit for bit the run that was never stopped", "[simulation]") {
   const auto block = blocks[GENERATE(0u, 1u, 2u, 3u)];
   Simulation<2> whole = block();

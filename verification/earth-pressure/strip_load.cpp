@@ -22,23 +22,29 @@ Problem strip_load(const Parameters& input) {
     Simulation<2> simulation;
     simulation.body = soil_body(run, soil.law, scheme, 0.0);
     Body<2>& body = simulation.body;
-    body.add(rectangle({0.0, -D}, L, D, dx));
-    body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {1.0, 0.0}}, SymmetryPlane<2>{{L, 0.0}, {-1.0, 0.0}},
-                             SymmetryPlane<2>{{0.0, -D}, {0.0, 1.0}}});
-    // The strip is the upper row of particles under it; the width of its columns is the strip's.
-    const double start = 0.1 * end;
+    // The ground beyond depth and length is held, and so is the strip by what drives it: particles bonded to the soil, as deep as the
+    // kernel reaches. A base on which the layer could slide would carry less than a half-space does (Hill 1950).
+    const int rows = static_cast<int>(std::ceil(support(scheme.kernel) * body.scheme.smoothing_ratio - 1e-9));
+    const double held = rows * dx, start = 0.1 * end;
+    body.add(rectangle({0.0, -D - held}, L + held, D + held, dx));
+    const std::size_t ground = body.particles.size();
+    body.add(rectangle({0.0, 0.0}, half, held, dx));
+    PrescribedMotion<2> rest{"ground", {}, [](double) { return Vector<2>(Vector<2>::Zero()); }};
     PrescribedMotion<2> strip{"strip", {}, [=](double t) { return Vector<2>(0.0, -way / (0.95 * end) * std::min(1.0, t / start)); }};
-    for (std::size_t i = 0; i < body.particles.size(); ++i)
-      if (body.particles.position[i][1] > -dx && body.particles.position[i][0] < half) strip.ids.push_back(body.particles.id[i]);
-    const double width = dx * static_cast<double>(strip.ids.size());
-    body.loads.motions.push_back(strip);
+    for (std::size_t i = 0; i < body.particles.size(); ++i) {
+      const Vector<2>& x = body.particles.position[i];
+      if (i >= ground) strip.ids.push_back(body.particles.id[i]);
+      else if (x[0] > L || x[1] < -D) rest.ids.push_back(body.particles.id[i]);
+    }
+    body.loads.motions = {strip, rest};
+    body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {1.0, 0.0}}});
     simulation.control.courant = courant;
-    simulation.watch.low = {-dx, -D - dx};
-    simulation.watch.high = {L + dx, D};
+    simulation.watch.low = {-dx, -D - held - dx};
+    simulation.watch.high = {L + held + dx, D};
 
     DynamicRun<2> dynamic(run, simulation);
     dynamic.probe({"bearing", "q", "Pa", "force on the strip over its width"},
-                  [width](const Simulation<2>& s) { return s.body.reactions()[0][1] / width; });
+                  [half](const Simulation<2>& s) { return s.body.reactions()[0][1] / half; });
     dynamic.until(end, 400, 2);
     exercise_soil(run, scheme);
     run.exercises("boundaries/prescribed_motion");

@@ -38,11 +38,13 @@ Problem rubber_rings(const Parameters& input) {
   const double v_0 = input.quantity("impact_velocity", dimension::velocity, range::positive);
   const double end = input.quantity("end_time", dimension::time, range::positive);
   const StepControl control = read_control(input);
-  // The paper's sums with artificial stress, or without it, or sums with corrected gradients.
-  const std::string form = input.choice("form", {"paper", "paper_without_artificial_stress", "corrected"});
+  // The paper's sums with artificial stress, or without it, and then with its velocity gradient or with the dual of its momentum sum;
+  // or sums with corrected gradients.
+  const std::string form = input.choice("form", {"paper", "paper_without_artificial_stress", "dual_without_artificial_stress", "corrected"});
   Scheme scheme = read_scheme_without_correction(input, "form");
   scheme.correction = form == "corrected" ? Correction::linear : Correction::none;
-  if (form == "paper_without_artificial_stress") scheme.artificial_stress.reset();
+  scheme.dual_gradient = form == "dual_without_artificial_stress";
+  if (form == "paper_without_artificial_stress" || scheme.dual_gradient) scheme.artificial_stress.reset();
 
   return [=](Run& run) {
     const double dx = run.resolution().spacing, c_0 = std::sqrt(material.bulk_modulus / material.reference_density);

@@ -75,6 +75,23 @@ TEST_CASE("few particles, and one that has flown away", "[particles]") {
   CHECK_THROWS_AS(arranged(points, 1.0, 2.0), std::runtime_error);
 }
 
+TEST_CASE("rows that are dropped are empty, and the others what they were", "[particles]") {
+  const NeighbourList all = cloud<2>({13, 11}, false, 2.6, 9).neighbours;
+  std::vector<std::uint8_t> keep(all.size());
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = i % 3 == 1;
+  NeighbourList some = all;
+  drop_rows(some, keep);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    const auto before = all.row(i), after = some.row(i);
+    if (keep[i])
+      CHECK(std::equal(before.begin(), before.end(), after.begin(), after.end()));
+    else
+      CHECK(after.empty());
+    CHECK(some.begin[i + 1] - some.begin[i] == (keep[i] ? all.begin[i + 1] - all.begin[i] : 0));
+  }
+  CHECK(some.index.size() == static_cast<std::size_t>(some.begin.back()));
+}
+
 TEST_CASE("no particles at all", "[particles]") { CHECK(arranged(Points<2>{{}, 1.0, 1.0, {}}, 1.0, 2.0).neighbours.size() == 0); }
 
 TEST_CASE("one thread and two give the same list", "[particles]") {

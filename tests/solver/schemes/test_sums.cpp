@@ -226,6 +226,27 @@ TEST_CASE("one thread and two give the same sums, bit for bit", "[schemes]") {
   omp_set_num_threads(before);
 }
 
+TEST_CASE("without correction the stress power is that of the gradient with m_j/rho_i", "[schemes]") {
+  const Sums<2> s("wendland_c2", true);   // densities differ from particle to particle
+  const std::size_t n = s.p.size();
+  std::vector<Matrix<2>> own(n), others(n);
+  std::vector<Vector<2>> a(n);
+  std::vector<MomentumPower> power(n);
+  MomentumWorkspace<2> workspace;
+  velocity_gradient<2>(s.stencil, s.p.mass, s.p.velocity, {}, own);
+  velocity_gradient<2>(s.stencil, s.V, s.p.velocity, {}, others);
+  momentum<2>(s.stencil, s.p, s.p.velocity, {}, {{}, {}, 1.0}, workspace, a, power);
+  double taken = 0.0, dual = 0.0, printed = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Matrix<2> sigma = s.p.stress[i].topLeftCorner<2, 2>();
+    taken += s.p.mass[i] * power[i].stress;
+    dual += s.p.mass[i] / s.p.density[i] * sigma.cwiseProduct(own[i] / s.p.density[i]).sum();
+    printed += s.p.mass[i] / s.p.density[i] * sigma.cwiseProduct(others[i]).sum();
+  }
+  CHECK(taken == Approx(dual).epsilon(1e-11));
+  CHECK(std::abs(taken - printed) > 1e-4 * std::abs(taken));
+}
+
 TEST_CASE("particles with too few neighbours are not corrected", "[schemes]") {
   // Alone; a pair, which spans a line and no plane; a row of three; and a full corner, which spans it.
   const std::vector<std::vector<Vector<2>>> none{{{0, 0}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}, {2, 0}}};
