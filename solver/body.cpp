@@ -139,8 +139,8 @@ void Body<Dim>::find_neighbours() {
   if (!layers.empty() && (scheme.correction == Correction::quadratic || in_reference_frame()))
     throw std::invalid_argument("boundary layers are there for the correction none or linear in the current frame");
   in_layer_.assign(n, 0);
-  for (const BoundaryLayer<Dim>& layer : layers)
-    for (const std::int32_t id : layer.ids) in_layer_[index_of(id)] = 1;
+  for (std::size_t l = 0; l < layers.size(); ++l)
+    for (const std::int32_t id : layers[l].ids) in_layer_[index_of(id)] = static_cast<std::uint8_t>(l + 1);
   if (!layers.empty()) put_idle_layers_to_rest();
   if (scheme.correction == Correction::linear) linear_.resize(n);
   if (scheme.correction == Correction::quadratic) quadratic_.resize(n);

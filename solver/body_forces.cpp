@@ -136,7 +136,7 @@ LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
   soil_volume_.resize(particles.position.size());
   for (std::size_t i = 0; i < n; ++i) soil_volume_[i] = is_in_layer(i) ? 0.0 : particles.volume(i);
   if (!images.empty()) images.fill(soil_volume_);
-  return {scheme.kernel, smoothing_length(), box, &neighbours_, particles.position, soil_volume_, index_of_id_};
+  return {scheme.kernel, smoothing_length(), box, &neighbours_, particles.position, soil_volume_, index_of_id_, in_layer_};
 }
 
 template <int Dim>
@@ -195,7 +195,7 @@ void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
     for (std::size_t k = 0; k < layers[l].ids.size(); ++k) {
       const std::size_t i = index_of(layers[l].ids[k]);
       const Vector<Dim> force = p.mass[i] * p.acceleration[i];
-      layer_forces_[l] += force;
+      layer_forces_[l] += force - exchange_[k].from_other_layers;
       layer_power_ += exchange_[k].power;
       // The sum over pairs took the lent velocity for a motion; the viscous force did work on V only.
       layer_viscous_power_ += (force - exchange_[k].stress_force).dot(velocity[i] - V);

@@ -103,6 +103,8 @@ void layer_exchange(const LayerSurroundings<Dim>& around, const BoundaryLayer<Di
             const Vector<Dim> grad_w = volume[w] * volume[j] * derivative<decltype(kernel), Dim>(r, h) / r * x_wj;
             const Vector<Dim> f_wj = (A[w] + A[j]) * grad_w;
             sum.stress_force += f_wj;
+            if (j < around.layer_of.size() && around.layer_of[j] != 0 && around.layer_of[j] != around.layer_of[w])
+              sum.from_other_layers += f_wj;
             if (around.soil_volume[j] > 0.0)
               sum.power += f_wj.dot(velocity[j] - wall_velocity) + (velocity[w] - velocity[j]).dot(A[j] * grad_w);
           }

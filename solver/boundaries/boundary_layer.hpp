@@ -39,6 +39,7 @@ struct LayerSurroundings {
   std::span<const Vector<Dim>> position;
   std::span<const double> soil_volume;         ///< m/rho, and 0 for particles of layers
   std::span<const std::int32_t> index_of_id;
+  std::span<const std::uint8_t> layer_of = {};   ///< of particles proper: 0 for soil, else one more than its place among layers
 };
 
 /// Velocities of a layer's particles for the sums over pairs. With <f> the mean over the soil in reach, weighed by V W, and d the
@@ -60,6 +61,7 @@ void extrapolate_stress(const LayerSurroundings<Dim>& around, const BoundaryLaye
 template <int Dim>
 struct LayerExchange {
   Vector<Dim> stress_force = Vector<Dim>::Zero();   ///< on it, from the stress term with all its neighbours, N
+  Vector<Dim> from_other_layers = Vector<Dim>::Zero();   ///< what of stress_force no soil exerts, N
   double power = 0.0;                               ///< into the soil that it stands for, W
 };
 

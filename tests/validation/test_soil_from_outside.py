@@ -68,6 +68,21 @@ def test_it_runs_to_a_verdict(outside):
     assert 0.1 < measured["run_out"] < 3.0
 
 
+def test_a_gate_holds_the_soil_until_it_is_gone(outside):
+    def measured(gate):
+        ended, folder = outside("end_time = {", f"{gate}end_time = {{")
+        assert ended.returncode in (0, 1), ended.stdout + ended.stderr   # what it runs to is a reader's band, not this test's
+        result = json.loads((folder / "run/column-collapse/my-heap/result.json").read_text())
+        return {m["name"]: m["value"] for m in result["metrics"]}
+
+    released = measured("")
+    held = measured('gate_speed = { value = 1, unit = "mm/s" }, ')
+    lifted = measured('gate_speed = { value = 1, unit = "m/s" }, ')
+    assert held["run_out"] < 0.1 * released["run_out"]
+    assert 0.5 * released["run_out"] < lifted["run_out"] < 1.5 * released["run_out"]   # what runs out under a gate runs thinner
+    assert all(abs(run["energy_imbalance"]) < 0.02 for run in (released, held, lifted))
+
+
 @pytest.mark.parametrize("old, new, words", [
     ("value = 28, unit", "value = 60, unit", ("friction_angle", "found 60 deg", "at least 0 and less than 60 deg")),
     ("value = 28, unit", "value = -3, unit", ("friction_angle", "found -3 deg", "at least 0 and less than 60 deg")),
