@@ -108,11 +108,11 @@ void Simulation<Dim>::account(double dt) {
   energy_.artificial += 0.5 * dt * (before.artificial + powers_.artificial);
   energy_.damping += 0.5 * dt * (before.damping + powers_.damping);
   energy_.external += 0.5 * dt * (before.external + powers_.external);
-  if (!body.loads.motions.empty())
-    energy_.external += body.prescribed_kinetic_energy(time_) - body.prescribed_kinetic_energy(time_ - dt);
   energy_.contact += 0.5 * dt * (before.friction + powers_.friction);
   energy_.viscous += 0.5 * dt * (before.layer_viscous + powers_.layer_viscous);
   energy_.layer += 0.5 * dt * (before.layer + powers_.layer);
+  if (!body.loads.motions.empty())
+    energy_.external += body.prescribed_kinetic_energy(time_) - body.prescribed_kinetic_energy(time_ - dt);
   if (!body.scheme.energy) return;
   for_all(p.size(), [&](std::size_t i) { p.internal_energy[i] += dt * body.power()[i].viscous; });
   deposited_ += dt * powers_.viscous;
