@@ -18,6 +18,7 @@ class Particles:
     plastic_strain: np.ndarray
     damage: np.ndarray
     stress: np.ndarray       # von Mises, Pa
+    volume: np.ndarray       # per width, m^2
 
 
 @dataclass
@@ -55,7 +56,7 @@ class Case:
         length, height = (size[key]["value"] * 1e-3 for key in ("soil_length", "soil_height"))
         for soil, _ in found:
             inside = (soil.start[:, 0] > 0) & (soil.start[:, 0] < length) & (soil.start[:, 1] > 0) & (soil.start[:, 1] < height)
-            for key in ("position", "start", "velocity", "plastic_strain", "damage", "stress"):
+            for key in ("position", "start", "velocity", "plastic_strain", "damage", "stress", "volume"):
                 setattr(soil, key, getattr(soil, key)[inside])
         return found
 
@@ -73,7 +74,8 @@ def read(path):
         mises = np.sqrt(0.5 * ((s[:, 0] - s[:, 4]) ** 2 + (s[:, 4] - s[:, 8]) ** 2 + (s[:, 8] - s[:, 0]) ** 2) + 3.0 * shear)
         return Particles(float(root["FieldData/time"][0]), np.asarray(root["Points"])[:, :2],
                          np.asarray(fields["reference_position"])[:, :2], np.asarray(fields["velocity"])[:, :2],
-                         np.asarray(fields["plastic_strain"]), np.asarray(fields["damage"]), mises)
+                         np.asarray(fields["plastic_strain"]), np.asarray(fields["damage"]), mises,
+                         np.asarray(fields["mass"]) / np.asarray(fields["density"]))
 
 
 def load(run, case):

@@ -159,8 +159,7 @@ def interface(case, name):
     near = face[np.argmin(face[:, 0])]
     distance = np.linalg.norm(soil.position - near, axis=1)
     centre = 1e3 * soil.position[np.argmin(distance)]
-    rung = case.result.get("resolution", {})
-    dx = rung["spacing"]["value"][-1] if "spacing" in rung else 1.0
+    dx = 1e3 * np.sqrt(np.median(soil.volume))
     panel.add_patch(matplotlib.patches.Circle(centre, 3.0 * dx, fill=False, edgecolor=LIGHT["ink"], linewidth=1.0))
     panel.annotate("support 2 h of a particle of soil", centre + (0, 3.0 * dx), fontsize=7, ha="center", va="bottom")
     panel.set_xlim(centre[0] - 6, centre[0] + 6)

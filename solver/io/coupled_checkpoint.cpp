@@ -66,8 +66,8 @@ void load_stiff(const Checkpoint& checkpoint, CoupledSimulation& coupled) {
   memory.node_force = vectors(own.array<double>("node_force"));
   memory.held_force = vectors(own.array<double>("held_force"));
   if (memory.node_force.size() != coupled.surface.ids.size())
-    throw std::out_of_range("the checkpoint has " + std::to_string(memory.node_force.size()) + " nodes on the surface, the case " +
-                            std::to_string(coupled.surface.ids.size()));
+    throw std::out_of_range("the checkpoint has " + std::to_string(memory.node_force.size()) +
+                            " nodes on the surface, the case " + std::to_string(coupled.surface.ids.size()));
   coupled.remember(memory);
 }
 

@@ -32,17 +32,18 @@ Blade read_blade(const Parameters& input, const Bed& bed) {
                     .adhesion = input.quantity_or("adhesion", dimension::stress, 0.0, range::not_negative),
                     .travel = input.quantity("travel", dimension::length, range::positive)};
   if (!(blade.speed > 0.0))
-    input.fail("speed", fmt::format("found {:g} m/s, expected a speed to the left above 0: the blade must move into the soil", blade.speed));
+    input.fail("speed", fmt::format("found {:g} m/s, expected a speed to the left above 0: the blade must move into the soil",
+                                    blade.speed));
   if (blade.depth >= bed.height)
     input.fail("depth", fmt::format("found {:g} m, expected less than the soil's height of {:g} m", blade.depth, bed.height));
   if (blade.gap < 0.0)
     input.fail("gap", fmt::format("found {:g} m, expected 0 or more: the blade would stand in the soil at the start", blade.gap));
   if (blade.gap >= blade.travel)
-    input.fail("gap", fmt::format("found {:g} m, expected less than the travel of {:g} m: the blade would not touch the soil", blade.gap, blade.travel));
+    input.fail("gap", fmt::format("found {:g} m, expected less than the travel of {:g} m: the blade would not touch the soil",
+                                  blade.gap, blade.travel));
   if (blade.travel >= bed.length)
     input.fail("travel", fmt::format("found {:g} m, expected less than the soil's length of {:g} m", blade.travel, bed.length));
-  if (blade.relief >= blade.rake)
-    input.fail("relief", "found an end that is as steep as the face, expected less than the rake");
+  if (blade.relief >= blade.rake) input.fail("relief", "found an end that is as steep as the face, expected less than the rake");
   return blade;
 }
 
@@ -67,7 +68,8 @@ ContactLaw read_contact(const Parameters& input, const Bed& bed, const Blade& bl
   return contact;
 }
 
-Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution, const std::optional<std::pair<Vector<2>, double>>& disc) {
+Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution,
+                  const std::optional<std::pair<Vector<2>, double>>& disc) {
   Body<2> body;
   body.name = "soil";
   body.material = bed.soil.law;
@@ -76,15 +78,18 @@ Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resoluti
   body.spacing = resolution.spacing;
   body.loads.gravity = {0.0, -bed.gravity};
   if (blade.gap > body.spacing)
-    throw std::invalid_argument(fmt::format("the gap of {:g} m between blade and soil is larger than the spacing of {:g} m", blade.gap, body.spacing));
+    throw std::invalid_argument(
+        fmt::format("the gap of {:g} m between blade and soil is larger than the spacing of {:g} m", blade.gap, body.spacing));
   std::vector<Vector<2>> centres = rectangle({0.0, 0.0}, bed.length, bed.height, body.spacing);
-  if (disc) std::erase_if(centres, [&](const Vector<2>& x) { return (x - disc->first).norm() < disc->second + 0.5 * body.spacing; });
+  if (disc)
+    std::erase_if(centres, [&](const Vector<2>& x) { return (x - disc->first).norm() < disc->second + 0.5 * body.spacing; });
   body.add(centres);
   body.images = Images<2>({SymmetryPlane<2>{{0.0, 0.0}, {1.0, 0.0}}});
   const double dx = body.spacing;
   add_flat_layer(body, "floor", {0.0, 0.0}, {bed.length + 4.0 * dx, 0.0}, Slip::none);
   if (bed.right_wall)
-    add_flat_layer(body, "right wall", {bed.length, 0.0}, {bed.length, dx * std::floor((bed.height - blade.depth) / dx + 1e-6)}, Slip::free);
+    add_flat_layer(body, "right wall", {bed.length, 0.0}, {bed.length, dx * std::floor((bed.height - blade.depth) / dx + 1e-6)},
+                   Slip::free);
   if (bed.gravity > 0.0) set_geostatic(body, bed.soil.law, bed.height, {});
   return body;
 }
@@ -109,7 +114,8 @@ void check_start(const Body<2>& soil, const Outline<2>& outline, const Blade& bl
       throw std::invalid_argument(fmt::format("the blade stands in the soil at the start: at ({:.6g}, {:.6g}) m", x[0], x[1]));
     Vector<2> later = x;
     later[0] += blade.travel;
-    on_the_way = on_the_way || nearest_point(outline, later).distance < range || nearest_point(outline, Vector<2>(0.5 * (x + later))).distance < range;
+    on_the_way = on_the_way || nearest_point(outline, later).distance < range ||
+                 nearest_point(outline, Vector<2>(0.5 * (x + later))).distance < range;
   }
   if (!on_the_way) throw std::invalid_argument("the blade does not touch the soil on its way");
 }
@@ -128,8 +134,10 @@ exact::CutForce wedge_of(const Bed& bed, const Blade& blade) {
 }
 
 void picture(Run& run, const Body<2>& soil, const std::vector<std::pair<std::string, std::vector<Vector<2>>>>& outlines,
-             const std::string& name, const std::string& title, const Column& colour, const std::function<double(std::size_t)>& value) {
-  Figure& figure = run.figure({.name = name, .title = title, .kind = "particles", .x = {"x", "m"}, .y = {"y", "m"}, .colour = colour});
+             const std::string& name, const std::string& title, const Column& colour,
+             const std::function<double(std::size_t)>& value) {
+  Figure& figure =
+      run.figure({.name = name, .title = title, .kind = "particles", .x = {"x", "m"}, .y = {"y", "m"}, .colour = colour});
   Series series{.label = "soil"};
   for (std::size_t i = 0; i < soil.particles.size(); ++i) {
     if (soil.is_in_layer(i)) continue;

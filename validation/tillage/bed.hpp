@@ -11,13 +11,13 @@
 
 namespace furrow::tillage_cases {
 
-/// A rectangular bed, its lower left corner at the origin, on a rough floor, at a smooth wall on the left; and a blade that comes in
-/// from the right through the free face.
+/// A rectangular bed, its lower left corner at the origin, on a rough floor, at a smooth wall on the left; and a blade that comes
+/// in from the right through the free face.
 struct Bed {
   Soil soil;
-  double length, height;     ///< m
-  bool right_wall;           ///< below the blade the right face leans on a smooth wall
-  double gravity;            ///< m/s^2
+  double length, height;   ///< m
+  bool right_wall;         ///< below the blade the right face leans on a smooth wall
+  double gravity;          ///< m/s^2
   double courant;
   Scheme scheme;
 };
@@ -31,8 +31,8 @@ struct Blade {
   double friction, adhesion;               ///< 1 and Pa
   double travel;                           ///< m, in all
 
-  Vector<2> along() const { return {std::cos(rake), std::sin(rake)}; }     ///< up the face
-  Vector<2> normal() const { return {-std::sin(rake), std::cos(rake)}; }   ///< of the face, towards the soil
+  Vector<2> along() const { return {std::cos(rake), std::sin(rake)}; }                      ///< up the face
+  Vector<2> normal() const { return {-std::sin(rake), std::cos(rake)}; }                    ///< of the face, towards the soil
   Vector<2> edge(const Bed& bed) const { return {bed.length + gap, bed.height - depth}; }   ///< at the start
 };
 /// The blade and its place; an InputError where it cannot be.
@@ -56,6 +56,7 @@ exact::CutForce wedge_of(const Bed& bed, const Blade& blade);
 
 /// Picture of the soil, coloured by a quantity, with the outline of the blade.
 void picture(Run& run, const Body<2>& soil, const std::vector<std::pair<std::string, std::vector<Vector<2>>>>& outlines,
-             const std::string& name, const std::string& title, const Column& colour, const std::function<double(std::size_t)>& value);
+             const std::string& name, const std::string& title, const Column& colour,
+             const std::function<double(std::size_t)>& value);
 
 }  // namespace furrow::tillage_cases

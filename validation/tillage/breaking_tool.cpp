@@ -1,5 +1,5 @@
-// Cuts in which a tool yields and breaks for a reason: dry hard clay, and a stone in the way. Demonstrations of a mechanism in soil
-// that is not the paper's.
+// Cuts in which a tool yields and breaks for a reason: dry hard clay, and a stone in the way. Demonstrations of a mechanism in
+// soil that is not the paper's.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -52,10 +52,8 @@ Problem breaking_tool(const Parameters& input) {
     const std::size_t end = std::min(breaks, h.time.size());
     for (std::size_t k = 0; k < end; ++k)
       if (h.plastic_moment[k] > 0.0) moment += h.moment[k], limit += h.plastic_moment[k], n += 1.0;
-    if (n > 0.0)
-      run.measure("plateau_moment", moment / n, "N", {limit / n, 0.0});
-    else
-      run.skip("plateau_moment", "no section of the tool flows");
+    if (n > 0.0) run.measure("plateau_moment", moment / n, "N", {limit / n, 0.0});
+    else run.skip("plateau_moment", "no section of the tool flows");
 
     run.note("Stages of the force: " + in_words(stages) + ".");
     run.note("A demonstration of the mechanism in soil that is not the paper's: no claim of the paper is reproduced by it.");
@@ -67,7 +65,8 @@ Problem breaking_tool(const Parameters& input) {
     run.measure("sub_steps", result.sub_steps);
     run.measure("gain", result.gain);
     stage_figure(run, h, stages, filter);
-    Figure& figure = run.figure({.name = "moment", .title = "Moment at the clamp", .x = {"time", "s"}, .y = {"moment per width", "N"}});
+    Figure& figure =
+        run.figure({.name = "moment", .title = "Moment at the clamp", .x = {"time", "s"}, .y = {"moment per width", "N"}});
     figure.add({.label = "computed", .x = h.time, .y = h.moment});
     figure.add({.label = "section that flows", .role = "reference", .x = h.time, .y = h.plastic_moment});
   };

@@ -16,30 +16,31 @@ struct CoupledSetup {
   double end_time;            ///< s
   bool single_rate;
   int snapshots;
-  int rows;                   ///< of the history
+  int rows;   ///< of the history
 };
 CoupledSetup read_coupled(const Parameters& input);
 
 /// Columns of the history of a cut, by row.
 struct CoupledHistory {
-  std::vector<double> time, step, travel;      ///< middle and length of the time since the row before, s; m
-  std::vector<double> normal, tangential;      ///< force of soil and stone on the tool along the face's inward normal and up the face, N/m
-  std::vector<double> draft, vertical;         ///< the same against the motion, and up
-  std::vector<double> actuator;                ///< force along the motion with which the actuator drives, N/m
-  std::vector<double> deflection, beam;        ///< of the tool's end, and of the cantilever with the soil's forces, m
-  std::vector<double> moment, plastic_moment;  ///< at the clamp, and of the section that flows, N
-  std::vector<double> plastic_strain, failed;  ///< greatest of the tool; number of particles
+  std::vector<double> time, step, travel;   ///< middle and length of the time since the row before, s; m
+  std::vector<double> normal,
+      tangential;   ///< force of soil and stone on the tool along the face's inward normal and up the face, N/m
+  std::vector<double> draft, vertical;          ///< the same against the motion, and up
+  std::vector<double> actuator;                 ///< force along the motion with which the actuator drives, N/m
+  std::vector<double> deflection, beam;         ///< of the tool's end, and of the cantilever with the soil's forces, m
+  std::vector<double> moment, plastic_moment;   ///< at the clamp, and of the section that flows, N
+  std::vector<double> plastic_strain, failed;   ///< greatest of the tool; number of particles
 };
 
 struct CoupledResult {
   CoupledHistory history;
-  double penetration;           ///< largest of soil and tool, spacings of the soil
-  double stone_penetration;     ///< largest of tool and stone, spacings of the tool
-  double energy_error;          ///< largest in the history, over the actuator's work at the end
-  double momentum_error;        ///< of the tool: its momentum less all impulses, over the actuator's impulse
-  double exchange_error;        ///< impulses of soil and tool together, over the tool's
-  double sub_steps;             ///< tool steps per soil step
-  double gain;                  ///< bound on what sub-steps save, (N_s + N_t)/(N_t + N_s/n) by numbers of particles
+  double penetration;         ///< largest of soil and tool, spacings of the soil
+  double stone_penetration;   ///< largest of tool and stone, spacings of the tool
+  double energy_error;        ///< largest in the history, over the actuator's work at the end
+  double momentum_error;      ///< of the tool: its momentum less all impulses, over the actuator's impulse
+  double exchange_error;      ///< impulses of soil and tool together, over the tool's
+  double sub_steps;           ///< tool steps per soil step
+  double gain;                ///< bound on what sub-steps save, (N_s + N_t)/(N_t + N_s/n) by numbers of particles
   long soil_particles, tool_particles;
 };
 CoupledResult coupled_cut(Run& run, const CoupledSetup& setup);

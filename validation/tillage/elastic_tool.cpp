@@ -1,4 +1,5 @@
-// The paper's cut with its own numbers: a tool that must stay elastic, its deflection against beam theory under the measured forces.
+// The paper's cut with its own numbers: a tool that must stay elastic, its deflection against beam theory under the measured
+// forces.
 #include <cmath>
 
 #include "reference/exact/beam.hpp"
@@ -13,7 +14,8 @@ namespace furrow::tillage_cases {
 Problem elastic_tool(const Parameters& input) {
   const CoupledSetup setup = read_coupled(input);
   const double from = input.quantity("window_start", dimension::time, {0.0, setup.end_time, false, true});
-  const double to = input.quantity_or("window_end", dimension::time, setup.end_time, {from, setup.end_time * (1.0 + 1e-9), true, false});
+  const double to =
+      input.quantity_or("window_end", dimension::time, setup.end_time, {from, setup.end_time * (1.0 + 1e-9), true, false});
   const double filter = input.quantity("filter", dimension::length, range::positive) / setup.blade.speed;
   return [=](Run& run) {
     const CoupledResult result = coupled_cut(run, setup);
@@ -36,7 +38,10 @@ Problem elastic_tool(const Parameters& input) {
     const std::vector<double> F = smoothed(h.time, h.normal, filter);
     const auto stages = stages_of(h, filter);
     const auto early = static_cast<std::size_t>(
-        std::max_element(F.begin(), std::find_if(F.begin(), F.end(), [&](const double& f) { return h.travel[static_cast<std::size_t>(&f - F.data())] > 4e-3; })) - F.begin());
+        std::max_element(
+            F.begin(), std::find_if(F.begin(), F.end(),
+                                    [&](const double& f) { return h.travel[static_cast<std::size_t>(&f - F.data())] > 4e-3; })) -
+        F.begin());
     run.measure("first_maximum_time", h.time[early], "s");
     run.measure("first_maximum", F[early], "N/m");
     std::size_t lowest = early;
@@ -44,15 +49,19 @@ Problem elastic_tool(const Parameters& input) {
       if (F[k] < F[lowest]) lowest = k;
     run.measure("fall_after_it", F[lowest] / F[early]);
     run.measure("lowest_time", h.time[lowest], "s");
-    // What it would take: moments that a section of this metal can carry, over the greatest that the clamp has seen. The load of soil
-    // whose weight and inertia are small beside its strength grows with its cohesion.
+    // What it would take: moments that a section of this metal can carry, over the greatest that the clamp has seen. The load of
+    // soil whose weight and inertia are small beside its strength grows with its cohesion.
     const double greatest_moment = *std::max_element(h.moment.begin(), h.moment.end());
     const double t = setup.blade.thickness;
     if (const auto* law = std::get_if<JohnsonCook<MieGrueneisen>>(&setup.tool.material.law)) {
       const double limit = exact::limit_moment(law->strength.A, t);
       Table& table = run.table("what-would-it-take", "What it would take, by the moment at the clamp",
-                               {{"event"}, {"moment of the section", "N"}, {"over the greatest at the clamp"}, {"cohesion, were the load in proportion", "kPa"}});
-      const double c = exact::plane_strain_cohesion({setup.bed.soil.law.cone.alpha, setup.bed.soil.law.cone.k, setup.bed.soil.law.cone.beta});
+                               {{"event"},
+                                {"moment of the section", "N"},
+                                {"over the greatest at the clamp"},
+                                {"cohesion, were the load in proportion", "kPa"}});
+      const double c =
+          exact::plane_strain_cohesion({setup.bed.soil.law.cone.alpha, setup.bed.soil.law.cone.k, setup.bed.soil.law.cone.beta});
       for (const auto& [event, moment] : {std::pair{"first yield", limit / 1.5}, std::pair{"plastic hinge", limit}})
         table.row({std::string(event), moment, moment / greatest_moment, 1e-3 * c * moment / greatest_moment});
     }
@@ -68,7 +77,8 @@ Problem elastic_tool(const Parameters& input) {
     run.measure("exchange_error", result.exchange_error);
     run.measure("sub_steps", result.sub_steps);
     run.measure("gain", result.gain);
-    Figure& figure = run.figure({.name = "rigid-beside", .title = "Elastic and rigid tool", .x = {"travel", "m"}, .y = {"draft per width", "N/m"}});
+    Figure& figure = run.figure(
+        {.name = "rigid-beside", .title = "Elastic and rigid tool", .x = {"travel", "m"}, .y = {"draft per width", "N/m"}});
     figure.add({.label = "elastic", .x = h.travel, .y = h.draft});
     figure.add({.label = "rigid", .role = "bound", .x = rigid.history.travel, .y = rigid.history.draft});
     stage_figure(run, h, stages, filter);

@@ -12,13 +12,21 @@ namespace {
 
 constexpr double uncertainty = 0.05;   ///< of independent means, relative
 
-void force_figure(Run& run, const Blade& blade, const CutResult& result, const std::optional<IndependentCut>& other, const exact::CutForce& wedge) {
-  Figure& figure = run.figure({.name = "force", .title = "Draft over travel", .x = {"travel", "m"}, .y = {"force per width", "N/m"}});
+void force_figure(Run& run, const Blade& blade, const CutResult& result, const std::optional<IndependentCut>& other,
+                  const exact::CutForce& wedge) {
+  Figure& figure =
+      run.figure({.name = "force", .title = "Draft over travel", .x = {"travel", "m"}, .y = {"force per width", "N/m"}});
   figure.add({.label = "computed, draft", .x = result.history.travel, .y = result.history.draft});
   figure.add({.label = "computed, vertical", .x = result.history.travel, .y = result.history.vertical});
   if (other) {
-    figure.add({.label = fmt::format("material points, {:g} mm, draft", 1e3 * other->cell), .role = "reference", .x = other->history.travel, .y = other->history.draft});
-    figure.add({.label = fmt::format("material points, {:g} mm, vertical", 1e3 * other->cell), .role = "reference", .x = other->history.travel, .y = other->history.vertical});
+    figure.add({.label = fmt::format("material points, {:g} mm, draft", 1e3 * other->cell),
+                .role = "reference",
+                .x = other->history.travel,
+                .y = other->history.draft});
+    figure.add({.label = fmt::format("material points, {:g} mm, vertical", 1e3 * other->cell),
+                .role = "reference",
+                .x = other->history.travel,
+                .y = other->history.vertical});
   }
   figure.add({.label = "plane wedge", .role = "bound", .x = {0.0, blade.travel}, .y = {wedge.draft, wedge.draft}});
 }
@@ -74,7 +82,8 @@ Problem speed_law(const Parameters& input) {
       return Law{(y - F_2 * x) / n, F_2};
     };
     std::vector<double> drafts, wedges, other_speeds, others;
-    Table& table = run.table("speeds", "Mean draft", {{"speed", "m/s"}, {"computed", "N/m"}, {"material points", "N/m"}, {"plane wedge", "N/m"}});
+    Table& table = run.table("speeds", "Mean draft",
+                             {{"speed", "m/s"}, {"computed", "N/m"}, {"material points", "N/m"}, {"plane wedge", "N/m"}});
     for (std::size_t k = 0; k < speeds.size(); ++k) {
       Blade one = blade;
       one.speed = speeds[k];
@@ -96,7 +105,11 @@ Problem speed_law(const Parameters& input) {
     run.measure("f_0", computed.F_0, "N/m", {other.F_0, uncertainty * other.F_0});
     run.measure("f_2", computed.F_2, "kg/m^2", {other.F_2, uncertainty * std::hypot(others.front(), others.back()) / reach});
     run.measure("f_2_wedge", computed.F_2, "kg/m^2", {wedge.F_2, 0.0});
-    Figure& figure = run.figure({.name = "speed", .title = "Mean draft over speed", .kind = "points", .x = {"speed", "m/s"}, .y = {"draft per width", "N/m"}});
+    Figure& figure = run.figure({.name = "speed",
+                                 .title = "Mean draft over speed",
+                                 .kind = "points",
+                                 .x = {"speed", "m/s"},
+                                 .y = {"draft per width", "N/m"}});
     figure.add({.label = "computed", .x = speeds, .y = drafts});
     figure.add({.label = "material points", .role = "reference", .x = other_speeds, .y = others});
     figure.add({.label = "plane wedge", .role = "bound", .x = speeds, .y = wedges});

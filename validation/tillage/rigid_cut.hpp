@@ -12,12 +12,11 @@ struct CutHistory {
 
 struct CutResult {
   CutHistory history;
-  double draft, vertical;         ///< means over the window of travel, N/m
-  double scatter;                 ///< standard deviation of the draft in the window over its mean
-  double peak, peak_travel;       ///< of the draft, N/m and m
-  double penetration;             ///< largest, in spacings
+  double draft, vertical;     ///< means over the window of travel, N/m
+  double scatter;             ///< standard deviation of the draft in the window over its mean
+  double peak, peak_travel;   ///< of the draft, N/m and m
+  double penetration;         ///< largest, in spacings
   double energy_imbalance;
-  double momentum_error;          ///< largest difference between impulses and momentum along x, over the blade's impulse
 };
 
 /// Runs the cut and measures over travel from `window_start` to its end; history and snapshots go to the run's folder.

@@ -43,7 +43,9 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
       if (is(k)) return k;
     return n;
   };
-  const auto greatest = [&](std::size_t from) { return static_cast<std::size_t>(std::max_element(F.begin() + static_cast<std::ptrdiff_t>(from), F.end()) - F.begin()); };
+  const auto greatest = [&](std::size_t from) {
+    return static_cast<std::size_t>(std::max_element(F.begin() + static_cast<std::ptrdiff_t>(from), F.end()) - F.begin());
+  };
 
   const std::size_t top = greatest(0);
   if (!(F[top] > 0.0)) {
@@ -53,10 +55,8 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
   const std::size_t begin = first_where(0, [&](std::size_t k) { return F[k] >= d.onset * F[top]; });
   const std::size_t plastic = first_where(0, [&](std::size_t k) { return h.plastic_strain[k] > d.plastic_onset; });
   const std::size_t rise_end = plastic < n ? plastic : top;
-  if (rise_end > begin && F[rise_end] > F[begin])
-    set(rise, begin, rise_end);
-  else
-    rise.reason = "no growth of the force before the tool yields";
+  if (rise_end > begin && F[rise_end] > F[begin]) set(rise, begin, rise_end);
+  else rise.reason = "no growth of the force before the tool yields";
 
   if (plastic == n) {
     yield.reason = hardening.reason = "no plastic strain in the tool";
@@ -64,10 +64,13 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
     yield.reason = hardening.reason = "no rise before it";
   } else {
     const double took = rise.end - rise.begin, slope = (rise.force_end - rise.force_begin) / took;
-    const std::size_t later = std::min(n - 1, first_where(plastic, [&](std::size_t k) { return h.time[k] >= rise.end + std::max(0.5 * took, 3.0 * d.filter); }));
+    const std::size_t later = std::min(
+        n - 1, first_where(plastic, [&](std::size_t k) { return h.time[k] >= rise.end + std::max(0.5 * took, 3.0 * d.filter); }));
     const double then = later > plastic ? (F[later] - F[plastic]) / (h.time[later] - h.time[plastic]) : slope;
     if (then < d.slope_drop * slope) {
-      const auto lowest = static_cast<std::size_t>(std::min_element(F.begin() + static_cast<std::ptrdiff_t>(plastic), F.begin() + static_cast<std::ptrdiff_t>(later) + 1) - F.begin());
+      const auto lowest = static_cast<std::size_t>(
+          std::min_element(F.begin() + static_cast<std::ptrdiff_t>(plastic), F.begin() + static_cast<std::ptrdiff_t>(later) + 1) -
+          F.begin());
       set(yield, plastic, lowest > plastic ? lowest : later);
     } else {
       yield.reason = "the force climbs on as before";
@@ -78,10 +81,8 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
   const std::size_t from = plastic < n ? plastic : 0, highest = greatest(from);
   if (yield.present) {
     const std::size_t start = first_where(0, [&](std::size_t k) { return h.time[k] >= yield.end; });
-    if (highest > start && F[highest] >= (1.0 + d.strengthening) * F[start])
-      set(hardening, start, highest);
-    else
-      hardening.reason = "the force does not grow after yield";
+    if (highest > start && F[highest] >= (1.0 + d.strengthening) * F[start]) set(hardening, start, highest);
+    else hardening.reason = "the force does not grow after yield";
   } else if (hardening.reason.empty()) {
     hardening.reason = "no yield before it";
   }
@@ -95,19 +96,14 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
   std::size_t edge = highest;
   for (std::size_t k = highest; k < n; ++k)
     if (F[k] >= 0.95 * F[highest]) edge = k;
-  if (h.time[cracked] <= h.time[edge] + d.filter)
-    set(peak, highest, edge);
-  else
-    peak.reason = "the force falls before anything has failed";
-  const bool stays = fallen < n && std::all_of(F.begin() + static_cast<std::ptrdiff_t>(fallen), F.end(), [&](double f) { return f < d.fall * F[highest]; });
-  if (!peak.present)
-    decline.reason = "no peak with fracture before it";
-  else if (fallen == n)
-    decline.reason = "the force does not fall far enough";
-  else if (!stays)
-    decline.reason = "the force recovers";
-  else
-    set(decline, edge, n - 1);
+  if (h.time[cracked] <= h.time[edge] + d.filter) set(peak, highest, edge);
+  else peak.reason = "the force falls before anything has failed";
+  const bool stays = fallen < n && std::all_of(F.begin() + static_cast<std::ptrdiff_t>(fallen), F.end(),
+                                               [&](double f) { return f < d.fall * F[highest]; });
+  if (!peak.present) decline.reason = "no peak with fracture before it";
+  else if (fallen == n) decline.reason = "the force does not fall far enough";
+  else if (!stays) decline.reason = "the force recovers";
+  else set(decline, edge, n - 1);
   return stages;
 }
 

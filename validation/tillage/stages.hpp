@@ -20,35 +20,36 @@ struct ForceHistory {
 
 /// The definition's numbers.
 struct StageDefinition {
-  double filter = 0.0;              ///< s: width of the centred mean F that everything is read from
-  double onset = 0.05;              ///< share of the greatest F at which the rise begins
-  double plastic_onset = 1e-3;      ///< plastic strain from which a tool counts as yielding
-  double slope_drop = 0.5;          ///< yield shows where F then climbs less than this share of the slope of the rise
-  double strengthening = 0.05;      ///< F must grow by this share between yield and peak
-  double fall = 0.5;                ///< share of the peak that F falls below, and stays below, in a decline
+  double filter = 0.0;           ///< s: width of the centred mean F that everything is read from
+  double onset = 0.05;           ///< share of the greatest F at which the rise begins
+  double plastic_onset = 1e-3;   ///< plastic strain from which a tool counts as yielding
+  double slope_drop = 0.5;       ///< yield shows where F then climbs less than this share of the slope of the rise
+  double strengthening = 0.05;   ///< F must grow by this share between yield and peak
+  double fall = 0.5;             ///< share of the peak that F falls below, and stays below, in a decline
 };
 
 struct Stage {
   std::string_view name;
   bool present = false;
-  double begin = 0.0, end = 0.0;            ///< s
+  double begin = 0.0, end = 0.0;               ///< s
   double force_begin = 0.0, force_end = 0.0;   ///< of the mean F
-  std::string reason;                       ///< why it is absent
+  std::string reason;                          ///< why it is absent
 };
 
 /// rise, yield, hardening, peak, decline.
 ///
 /// rise: from F = onset of its greatest to the cause of the next stage, or where there is none to the greatest F.
 /// yield: begins when the greatest plastic strain passes plastic_onset, and shows: the slope of F over the next half of the time
-///   that the rise took, three filter widths at least, is less than slope_drop of the mean slope of the rise. It ends with the lowest
-///   F in that time where F dips, and with that time where F only climbs more slowly.
+///   that the rise took, three filter widths at least, is less than slope_drop of the mean slope of the rise. It ends with the
+///   lowest F in that time where F dips, and with that time where F only climbs more slowly.
 /// hardening: from the end of yield to the peak, F growing by `strengthening` at least.
-/// peak: the greatest F after yield, with fracture: particles have failed before F has fallen below `fall` of it, and the first has
+/// peak: the greatest F after yield, with fracture: particles have failed before F has fallen below `fall` of it, and the first
+/// has
 ///   failed no later than one filter width after F began to fall for good.
 /// decline: F falls below `fall` of the peak after fracture and stays there until the end.
-/// A stage without its cause in the tool is absent: a drop of the force alone, as where the first chip shears off at the free face, is
-/// no yield. Throws std::invalid_argument for histories of different lengths, times that do not rise, or a filter that is not
-/// positive.
+/// A stage without its cause in the tool is absent: a drop of the force alone, as where the first chip shears off at the free
+/// face, is no yield. Throws std::invalid_argument for histories of different lengths, times that do not rise, or a filter that
+/// is not positive.
 std::array<Stage, 5> force_stages(const ForceHistory& history, const StageDefinition& definition);
 
 /// The centred mean over `width`, the window cut at the ends.

@@ -10,7 +10,9 @@
 namespace furrow::tillage_cases {
 namespace {
 
-int free_columns(const Tool& tool, const Blade& blade) { return static_cast<int>(std::lround(tool.free_length / tool.spacing(blade))); }
+int free_columns(const Tool& tool, const Blade& blade) {
+  return static_cast<int>(std::lround(tool.free_length / tool.spacing(blade)));
+}
 int held_columns(const Tool& tool) { return static_cast<int>(std::ceil(support(tool.scheme.kernel) * tool.smoothing_ratio)); }
 
 }  // namespace
@@ -19,7 +21,8 @@ Tool read_tool(const Parameters& input, const Blade& blade) {
   const Parameters in = input.table("tool");
   const int across = static_cast<int>(in.integer("across", 1, 1000));
   if (across < 4)
-    in.fail("across", fmt::format("found {}, expected 4 or more particles over the thickness: fewer do not bend as a plate does", across));
+    in.fail("across",
+            fmt::format("found {}, expected 4 or more particles over the thickness: fewer do not bend as a plate does", across));
   const double dx = blade.thickness / across;
   Tool tool{.material = read_material(in, "material", dx),
             .shear_modulus = 0.0,
@@ -42,7 +45,9 @@ Tool read_tool(const Parameters& input, const Blade& blade) {
   if (std::abs(tool.free_length / dx - std::round(tool.free_length / dx)) > 1e-6)
     in.fail("free_length", fmt::format("found {:g} m, expected a whole number of spacings of {:g} m", tool.free_length, dx));
   if (tool.free_length + held_columns(tool) * dx > blade.length)
-    in.fail("free_length", fmt::format("found {:g} m, expected less than the blade's length of {:g} m by {} spacings that are held", tool.free_length, blade.length, held_columns(tool)));
+    in.fail("free_length",
+            fmt::format("found {:g} m, expected less than the blade's length of {:g} m by {} spacings that are held",
+                        tool.free_length, blade.length, held_columns(tool)));
   return tool;
 }
 
@@ -120,7 +125,8 @@ double beam_deflection(const CoupledSimulation& coupled, const Tool& tool, const
     const Place at = place_of(tool, blade, ids[k]);
     const Vector<2>& f = coupled.node_forces()[k];
     // A force up the blade on the side of the face bends it like one that pushes the face back bends it the other way.
-    loads.push_back({tool.free_length - at.along, -f.dot(blade.normal()), -f.dot(blade.along()) * (0.5 * blade.thickness - at.across)});
+    loads.push_back(
+        {tool.free_length - at.along, -f.dot(blade.normal()), -f.dot(blade.along()) * (0.5 * blade.thickness - at.across)});
   }
   return exact::cantilever_deflection(loads, tool.free_length - 0.5 * tool.spacing(blade),
                                       exact::plate_stiffness(tool.young_modulus(), tool.poisson_ratio(), blade.thickness));
@@ -160,7 +166,8 @@ double plastic_moment(const CoupledSimulation& coupled, const Tool& tool, const 
             const std::size_t i = body.index_of(id);
             const double y = std::abs(place_of(tool, blade, id).across - 0.5 * blade.thickness);
             const double intact = law.damage ? law.damage->integrity(body.state(i)) : 1.0;
-            moment += 2.0 / std::sqrt(3.0) * intact * law.strength.flow_stress(p.plastic_strain[i], 0.0, p.temperature[i]).value * y * tool.spacing(blade);
+            moment += 2.0 / std::sqrt(3.0) * intact * law.strength.flow_stress(p.plastic_strain[i], 0.0, p.temperature[i]).value *
+                      y * tool.spacing(blade);
           }
           return moment;
         } else {

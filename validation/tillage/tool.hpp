@@ -47,8 +47,8 @@ double tip_deflection(const CoupledSimulation& coupled, const Tool& tool, const 
 double beam_deflection(const CoupledSimulation& coupled, const Tool& tool, const Blade& blade);
 /// Moment with which the driven particles hold the tool, about the middle of the clamped section, N.
 double clamp_moment(const CoupledSimulation& coupled, const Tool& tool, const Bed& bed, const Blade& blade);
-/// Moment of a section that flows where the tool is bent most: sum over the column of (2/sqrt(3)) sigma_y |y| dx with each particle's
-/// own flow stress; 0 while no column flows.
+/// Moment of a section that flows where the tool is bent most: sum over the column of (2/sqrt(3)) sigma_y |y| dx with each
+/// particle's own flow stress; 0 while no column flows.
 double plastic_moment(const CoupledSimulation& coupled, const Tool& tool, const Blade& blade);
 /// Greatest of a field of the tool.
 double greatest(const std::vector<double>& field);

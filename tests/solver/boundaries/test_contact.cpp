@@ -90,7 +90,13 @@ TEST_CASE("forces on particles and on nodes are equal and opposite, and have no 
   Outline<2> outline = Outline<2>::through(square, 0.0);
   outline.velocity.assign(4, {0.3, -0.2});
   Contact<2> contact;
-  contact.law = {.stiffness = 1e5, .damping = 0.1, .friction = 0.0, .adhesion = 0.0, .sticking_stiffness = 1e5, .reach = 0.5, .lennard_jones = {}};
+  contact.law = {.stiffness = 1e5,
+                 .damping = 0.1,
+                 .friction = 0.0,
+                 .adhesion = 0.0,
+                 .sticking_stiffness = 1e5,
+                 .reach = 0.5,
+                 .lennard_jones = {}};
   const bool rough = GENERATE(false, true);
   if (rough) contact.law.friction = 0.4, contact.law.adhesion = 20.0;
   if (GENERATE(false, true)) contact.law.lennard_jones = LennardJones{.coefficient = 3.0, .cut_off = 0.5};
@@ -163,7 +169,13 @@ TEST_CASE("a block sticks on a slope up to the angle of friction and slides beyo
   const double friction = 0.5, angle = GENERATE(0.3, 0.4, 0.48, 0.6);   // atan 0.5 = 0.4636
   Flight flight{.p = particle({0.5, 1.00495}, {0.0, 0.0}), .contact = {}, .outline = Outline<2>::through(square, 0.0)};
   flight.g = 9.81 * Vector<2>(std::sin(angle), -std::cos(angle));
-  flight.contact.law = {.stiffness = 4e5, .damping = 0.5, .friction = friction, .adhesion = 0.0, .sticking_stiffness = 4e5, .reach = 0.5, .lennard_jones = {}};
+  flight.contact.law = {.stiffness = 4e5,
+                        .damping = 0.5,
+                        .friction = friction,
+                        .adhesion = 0.0,
+                        .sticking_stiffness = 4e5,
+                        .reach = 0.5,
+                        .lennard_jones = {}};
   flight.look();
   for (int k = 0; k < 20000; ++k) flight.step();   // 0.2 s
   const double slide = flight.p.position[0][0] - 0.5;
@@ -180,20 +192,27 @@ TEST_CASE("a block sticks on a slope up to the angle of friction and slides beyo
 TEST_CASE("adhesion holds a block without pressure", "[contact]") {
   const double pull = GENERATE(0.4, 1.2);   // of the adhesion
   Flight flight{.p = particle({0.5, 1.004999}, {0.0, 0.0}), .contact = {}, .outline = Outline<2>::through(square, 0.0)};
-  flight.contact.law = {.stiffness = 1.0, .damping = 0.0, .friction = 0.0, .adhesion = 500.0, .sticking_stiffness = 4e5, .reach = 0.5, .lennard_jones = {}};
+  flight.contact.law = {.stiffness = 1.0,
+                        .damping = 0.0,
+                        .friction = 0.0,
+                        .adhesion = 500.0,
+                        .sticking_stiffness = 4e5,
+                        .reach = 0.5,
+                        .lennard_jones = {}};
   flight.g = {pull * 500.0 * dx / 2.0, 0.0};
   flight.look();
   for (int k = 0; k < 5000; ++k) flight.step();
   const double slide = flight.p.position[0][0] - 0.5;
-  if (pull < 1.0)
-    CHECK(slide < 2.0 * pull * 500.0 * dx / 4e5 * 1.05);   // the stretch of a load that comes suddenly
-  else
-    CHECK(slide > 2e-4);
+  if (pull < 1.0) CHECK(slide < 2.0 * pull * 500.0 * dx / 4e5 * 1.05);   // the stretch of a load that comes suddenly
+  else CHECK(slide > 2e-4);
 }
 
 TEST_CASE("a rigid body moves as prescribed", "[contact]") {
-  RigidBody<2> body{.contact = {}, .outline = Outline<2>::through(square, 0.0), .start = square,
-                    .displacement = [](double t) { return Vector<2>(2.0 * t, 0.0); }, .velocity = [](double) { return Vector<2>(2.0, 0.0); }};
+  RigidBody<2> body{.contact = {},
+                    .outline = Outline<2>::through(square, 0.0),
+                    .start = square,
+                    .displacement = [](double t) { return Vector<2>(2.0 * t, 0.0); },
+                    .velocity = [](double) { return Vector<2>(2.0, 0.0); }};
   body.move(0.5);
   CHECK((body.outline.position[2] - Vector<2>(2.0, 1.0)).norm() < 1e-15);
   CHECK((body.outline.velocity[0] - Vector<2>(2.0, 0.0)).norm() < 1e-15);

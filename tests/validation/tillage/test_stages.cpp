@@ -28,7 +28,8 @@ ForceHistory whole() {
   for (int k = 0; k <= 1000; ++k) {
     const double t = 1e-5 * k;
     h.time.push_back(t);
-    h.force.push_back(between(t, {{0.0, 0.0}, {0.2e-3, 0.0}, {1.5e-3, 10e3}, {2e-3, 9e3}, {7e-3, 18e3}, {8e-3, 4.5e3}, {10e-3, 4e3}}));
+    h.force.push_back(
+        between(t, {{0.0, 0.0}, {0.2e-3, 0.0}, {1.5e-3, 10e3}, {2e-3, 9e3}, {7e-3, 18e3}, {8e-3, 4.5e3}, {10e-3, 4e3}}));
     h.plastic_strain.push_back(t < 1.5e-3 ? 0.0 : 20.0 * (t - 1.5e-3));
     h.failed.push_back(t < 6.9e-3 ? 0.0 : 1.0 + std::floor(1e4 * (t - 6.9e-3)));
   }
