@@ -5,12 +5,12 @@ import collections
 import fnmatch
 import json
 import shutil
-import sys
 from pathlib import Path
 
 from defects import kills, patches
 from defects.scratch import Tree
 from gate import baseline
+from gate.command import exit_code
 from gate.compare import TIERS
 from gate.files import ROOT, GateError, locked, read_json, write_whole
 from gate.table import cut
@@ -180,14 +180,8 @@ def summary(found, wanted, tiers):
 
 def main(words):
     arguments = parser().parse_args(words)
-    try:
+
+    def command():
         wanted = chosen(arguments)
         return check(wanted) if arguments.check else hunt(arguments, wanted)
-    except GateError as error:
-        print(f"furrow: {error}", file=sys.stderr)
-        return error.code
-    except results.ReportError as error:
-        print(f"furrow: {error}", file=sys.stderr)
-        return 3
-    except KeyboardInterrupt:
-        return 130
+    return exit_code(command, of_report=3)

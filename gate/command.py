@@ -156,15 +156,22 @@ def record(arguments):
     return 0
 
 
-def main(words):
-    arguments = parser().parse_args(words)
+def exit_code(command, of_report=2):
+    """What `command()` returns; or the code of the error that it ends in, which is said in one line. `of_report`: the code where
+    result files cannot be read."""
     try:
-        return {"gate": gate, "bless": bless, "noise": measure, "record": record}[arguments.command](arguments)
+        return command()
     except GateError as error:
         print(f"furrow: {error}", file=sys.stderr)
         return error.code
     except results.ReportError as error:
         print(f"furrow: {error}", file=sys.stderr)
-        return 2
+        return of_report
     except KeyboardInterrupt:
         return 130
+
+
+def main(words):
+    arguments = parser().parse_args(words)
+    commands = {"gate": gate, "bless": bless, "noise": measure, "record": record}
+    return exit_code(lambda: commands[arguments.command](arguments))

@@ -108,7 +108,6 @@ def _weight(metric, accepted, finite):
     return abs(metric["value"] - accepted.value) / abs(accepted.value) if accepted.value else (math.inf if moved else 0.0)
 
 
-
 def is_looser(band, than):
     """Whether `band` lets something through that `than` stops; None is no gate at all, a None end is open."""
     if than is None:

@@ -75,16 +75,12 @@ void add_flat_layer(Body<2>& body, std::string name, const Vector<2>& from, cons
   body.layers.push_back(std::move(layer));
 }
 
-namespace {
-
 std::vector<std::uint8_t> layer_flags(const Body<2>& body) {
   std::vector<std::uint8_t> in_layer(body.particles.size(), 0);
   for (const BoundaryLayer<2>& layer : body.layers)
     for (const std::int32_t id : layer.ids) in_layer[static_cast<std::size_t>(id)] = 1;
   return in_layer;
 }
-
-}  // namespace
 
 void set_geostatic(Body<2>& body, const DruckerPrager& law, double top, const RestingRatio& ratio) {
   const std::vector<std::uint8_t> in_layer = layer_flags(body);
@@ -109,6 +105,21 @@ void check_clear(const Body<2>& body) {
       for (const std::size_t i : soil)
         if ((p.position[i] - p.position[static_cast<std::size_t>(id)]).squaredNorm() < least * least)
           throw std::invalid_argument(fmt::format("the soil at ({:.6g}, {:.6g}) m overlaps {}", p.position[i][0], p.position[i][1], layer.name));
+}
+
+Figure& soil_figure(Run& run, const Body<2>& body, const std::string& name, const std::string& title, const Column& colour,
+                    const std::function<double(std::size_t)>& value) {
+  Figure& figure =
+      run.figure({.name = name, .title = title, .kind = "particles", .x = {"x", "m"}, .y = {"y", "m"}, .colour = colour});
+  Series series{.label = "soil"};
+  for (std::size_t i = 0; i < body.particles.size(); ++i) {
+    if (body.is_in_layer(i)) continue;
+    series.x.push_back(body.particles.position[i][0]);
+    series.y.push_back(body.particles.position[i][1]);
+    series.colour.push_back(value(i));
+  }
+  figure.add(std::move(series));
+  return figure;
 }
 
 }  // namespace furrow

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/case.hpp"
 #include "harness/material_file.hpp"
 #include "solver/body.hpp"
 
@@ -43,8 +44,15 @@ void add_flat_layer(Body<2>& body, std::string name, const Vector<2>& from, cons
 /// Stress at rest under level ground at height `top`: vertical -rho g (top - y), lateral in both directions by the ratio.
 void set_geostatic(Body<2>& body, const DruckerPrager& law, double top, const RestingRatio& ratio);
 
+/// By id, whether a particle belongs to a boundary layer: of a body that has not looked for its neighbours yet.
+std::vector<std::uint8_t> layer_flags(const Body<2>& body);
+
 /// Throws std::invalid_argument that names the first soil particle that lies in a layer or closer than a spacing to one of its
 /// particles, tolerance a hundredth of the spacing.
 void check_clear(const Body<2>& body);
+
+/// A figure of the soil without its layers, each particle with a value by its index. Other series may be added to it.
+Figure& soil_figure(Run& run, const Body<2>& body, const std::string& name, const std::string& title, const Column& colour,
+                    const std::function<double(std::size_t)>& value);
 
 }  // namespace furrow

@@ -8,12 +8,11 @@ import sys
 from pathlib import Path
 
 from gate import baseline, ledger, outputs
-from gate.command import build_report, load, new_folder, run_tier
+from gate.command import build_report, exit_code, load, new_folder, run_tier
 from gate.compare import TIERS, compare
 from gate.files import GateError, locked, write_whole
 from night import series, store, summary
 from reports.numbers import duration, number, unit
-from reports.results import ReportError
 
 
 def parser():
@@ -157,13 +156,4 @@ def one_by_one(s, nights):
 
 def main(words):
     arguments = parser().parse_args(words)
-    try:
-        return {"nightly": nightly, "history": history}[arguments.command](arguments)
-    except GateError as error:
-        print(f"furrow: {error}", file=sys.stderr)
-        return error.code
-    except ReportError as error:
-        print(f"furrow: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        return 130
+    return exit_code(lambda: {"nightly": nightly, "history": history}[arguments.command](arguments))

@@ -70,18 +70,6 @@ double volume_of(const Body<2>& body) {
   return volume;
 }
 
-void picture(Run& run, const Body<2>& body, const std::string& name, const std::string& title, const Column& colour,
-             const std::function<double(std::size_t)>& value) {
-  Figure& figure = run.figure({.name = name, .title = title, .kind = "particles", .x = {"x", "m"}, .y = {"y", "m"}, .colour = colour});
-  Series series{.label = "soil"};
-  for (const std::size_t i : soil_of(body)) {
-    series.x.push_back(body.particles.position[i][0]);
-    series.y.push_back(body.particles.position[i][1]);
-    series.colour.push_back(value(i));
-  }
-  figure.add(std::move(series));
-}
-
 }  // namespace
 
 Collapsed collapse(Run& run, const SoilColumn& c, double window) {
@@ -178,11 +166,11 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
   const std::size_t late = t.size() - 1 - t.size() / 10;
   end.late_motion = std::hypot(x_c.back() - x_c[late], y_c.back() - y_c[late]) / c.height;
 
-  picture(run, body, "displacement", "Displacement", {"|u|", "m"}, [&body](std::size_t i) {
+  soil_figure(run, body, "displacement", "Displacement", {"|u|", "m"}, [&body](std::size_t i) {
     return (body.particles.position[i] - body.particles.reference_position[i]).norm();
   });
-  picture(run, body, "plastic-strain", "Equivalent plastic strain", {"eps_p", "1"},
-          [&body](std::size_t i) { return body.particles.plastic_strain[i]; });
+  soil_figure(run, body, "plastic-strain", "Equivalent plastic strain", {"eps_p", "1"},
+              [&body](std::size_t i) { return body.particles.plastic_strain[i]; });
   return end;
 }
 

@@ -103,9 +103,7 @@ std::vector<Vector<2>> outline_of(const Bed& bed, const Blade& blade) {
 }
 
 void check_start(const Body<2>& soil, const Outline<2>& outline, const Blade& blade, double range) {
-  std::vector<std::uint8_t> in_layer(soil.particles.size(), 0);   // not known to the body before its neighbours are
-  for (const BoundaryLayer<2>& layer : soil.layers)
-    for (const std::int32_t id : layer.ids) in_layer[static_cast<std::size_t>(id)] = 1;
+  const std::vector<std::uint8_t> in_layer = layer_flags(soil);
   bool on_the_way = false;
   for (std::size_t i = 0; i < soil.particles.size(); ++i) {
     if (in_layer[static_cast<std::size_t>(soil.particles.id[i])]) continue;
@@ -136,16 +134,7 @@ exact::CutForce wedge_of(const Bed& bed, const Blade& blade) {
 void picture(Run& run, const Body<2>& soil, const std::vector<std::pair<std::string, std::vector<Vector<2>>>>& outlines,
              const std::string& name, const std::string& title, const Column& colour,
              const std::function<double(std::size_t)>& value) {
-  Figure& figure =
-      run.figure({.name = name, .title = title, .kind = "particles", .x = {"x", "m"}, .y = {"y", "m"}, .colour = colour});
-  Series series{.label = "soil"};
-  for (std::size_t i = 0; i < soil.particles.size(); ++i) {
-    if (soil.is_in_layer(i)) continue;
-    series.x.push_back(soil.particles.position[i][0]);
-    series.y.push_back(soil.particles.position[i][1]);
-    series.colour.push_back(value(i));
-  }
-  figure.add(std::move(series));
+  Figure& figure = soil_figure(run, soil, name, title, colour, value);
   // The tool's outline as points of no value, half a spacing apart: a figure of particles has a colour for each of its points.
   for (const auto& [label, nodes] : outlines) {
     Series outline{.label = label, .role = "bound"};

@@ -57,13 +57,8 @@ Problem breaking_tool(const Parameters& input) {
 
     run.note("Stages of the force: " + in_words(stages) + ".");
     run.note("A demonstration of the mechanism in soil that is not the paper's: no claim of the paper is reproduced by it.");
-    run.measure("penetration", result.penetration);
+    measure_coupling(run, result);
     run.measure("stone_penetration", result.stone_penetration);
-    run.measure("energy_error", result.energy_error);
-    run.measure("momentum_error", result.momentum_error);
-    run.measure("exchange_error", result.exchange_error);
-    run.measure("sub_steps", result.sub_steps);
-    run.measure("gain", result.gain);
     stage_figure(run, h, stages, filter);
     Figure& figure =
         run.figure({.name = "moment", .title = "Moment at the clamp", .x = {"time", "s"}, .y = {"moment per width", "N"}});

@@ -182,6 +182,15 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& s) {
   return result;
 }
 
+void measure_coupling(Run& run, const CoupledResult& result) {
+  run.measure("penetration", result.penetration);
+  run.measure("energy_error", result.energy_error);
+  run.measure("momentum_error", result.momentum_error);
+  run.measure("exchange_error", result.exchange_error);
+  run.measure("sub_steps", result.sub_steps);
+  run.measure("gain", result.gain);
+}
+
 double mean_over(const CoupledHistory& h, const std::vector<double>& column, double from, double to) {
   double sum = 0.0, time = 0.0;
   for (std::size_t k = 0; k < h.time.size(); ++k)

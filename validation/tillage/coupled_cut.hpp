@@ -44,6 +44,8 @@ struct CoupledResult {
   long soil_particles, tool_particles;
 };
 CoupledResult coupled_cut(Run& run, const CoupledSetup& setup);
+/// Measures how well the coupling did: penetration, errors of energy, momentum and exchange, sub-steps and the bound on the gain.
+void measure_coupling(Run& run, const CoupledResult& result);
 
 /// Mean of a column over times from `from` to `to`, s.
 double mean_over(const CoupledHistory& history, const std::vector<double>& column, double from, double to);

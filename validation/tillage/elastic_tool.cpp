@@ -71,12 +71,7 @@ Problem elastic_tool(const Parameters& input) {
     run.measure("stages_after_rise", found);
     run.note("Stages of the force: " + in_words(stages) + ".");
 
-    run.measure("penetration", result.penetration);
-    run.measure("energy_error", result.energy_error);
-    run.measure("momentum_error", result.momentum_error);
-    run.measure("exchange_error", result.exchange_error);
-    run.measure("sub_steps", result.sub_steps);
-    run.measure("gain", result.gain);
+    measure_coupling(run, result);
     Figure& figure = run.figure(
         {.name = "rigid-beside", .title = "Elastic and rigid tool", .x = {"travel", "m"}, .y = {"draft per width", "N/m"}});
     figure.add({.label = "elastic", .x = h.travel, .y = h.draft});
