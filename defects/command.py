@@ -5,9 +5,10 @@ import collections
 import fnmatch
 import json
 import shutil
+import time
 from pathlib import Path
 
-from defects import kills, patches
+from defects import kills, order, patches, record
 from defects.scratch import Tree
 from gate import baseline
 from gate.command import exit_code
@@ -27,12 +28,15 @@ def parser():
     command = main.add_subparsers(dest="command", required=True).add_parser(
         "defects", help="plant defects and see what catches them", epilog=(
             "Each patch in tests/defects/ is applied to a copy of the commit, built, and the cases that exercise what it touches "
-            "are run, tier by tier until one is red. Killed: a metric left its band. Seen by its change alone: only a baseline "
-            "tells. Exit codes: 0 none survived, 1 one did, 2 wrong usage, 3 a patch does not apply or compile, or nobody "
+            "are run, tier by tier and those first that are quick to tell, until one is red. Killed: a metric left its band. Seen "
+            "by its change alone: only a baseline tells. Exit codes: 0 none survived, 1 one did, 2 wrong usage, 3 a patch does not apply or compile, or nobody "
             "exercises it. Example: ./furrow defects --only 'momentum-*' --tier quick"))
     command.add_argument("--only", action="append", default=[], metavar="GLOB", help="only defects whose name matches")
     command.add_argument("--tier", choices=TIERS, default="nightly", help="largest tier to run (default: nightly)")
+    command.add_argument("--cases", action="append", default=[], metavar="GLOB", help="only cases whose id matches")
+    command.add_argument("--alive", action="store_true", help="only defects that reference/kills.json does not know as killed")
     command.add_argument("--resume", action="store_true", help="keep what was found for the same patch and commit")
+    command.add_argument("--record", action="store_true", help="write what is found to reference/kills.json")
     command.add_argument("--commit", default="HEAD", help="commit to plant them in (default: HEAD)")
     command.add_argument("--out", type=Path, default=OUT, metavar="DIR", help="folder of the kill matrix (default: runs/defects)")
     command.add_argument("--jobs", type=int, metavar="N", help="compilers and cases side by side (default: as many as cores)")
@@ -43,10 +47,17 @@ def parser():
 
 def chosen(arguments):
     found = patches.read_all(arguments.patches)
-    wanted = [d for d in found if not arguments.only or any(fnmatch.fnmatchcase(d.name, g) for g in arguments.only)]
+    wanted = [d for d in found if matches(d.name, arguments.only)]
     if not wanted:
         raise GateError(f"none of {len(found)} defects has such a name; 'ls {arguments.patches}' shows them")
+    if arguments.alive:
+        known = record.read()
+        wanted = [d for d in wanted if not d.right and not record.is_dead(known.get(d.name), d, arguments.tier)]
     return wanted
+
+
+def matches(name, globs):
+    return not globs or any(fnmatch.fnmatchcase(name, g) for g in globs)
 
 
 def check(wanted):
@@ -64,10 +75,11 @@ def check(wanted):
 
 class Hunt:
     def __init__(self, arguments):
-        self.out, self.resume, self.jobs = arguments.out, arguments.resume, arguments.jobs
+        self.out, self.resume, self.jobs, self.only = arguments.out, arguments.resume, arguments.jobs, arguments.cases
         self.tiers = TIERS[:TIERS.index(arguments.tier) + 1]
         self.tree = Tree(commit=arguments.commit, jobs=arguments.jobs)
         self.noise = baseline.read_all()
+        self.past = order.Past()
 
     def words(self):
         return ["--no-report", "--quiet"] + (["--jobs", str(self.jobs)] if self.jobs else [])
@@ -82,7 +94,7 @@ class Hunt:
             shutil.rmtree(clean, ignore_errors=True)
         # --resume knows by the program's own bytes what may be kept
         self.tree.run(["matrix", "--tier", self.tiers[-1], "--out", str(clean.resolve()), *self.words(),
-                       *(["--resume"] if clean.exists() else [])])
+                       *(word for glob in self.only for word in ("--only", glob)), *(["--resume"] if clean.exists() else [])])
         self.clean = {c.id: c for c in results.load(clean).cases if c.data.get("metrics")}
         if not self.clean:
             raise GateError("the clean tree ran no case", 3)
@@ -99,22 +111,33 @@ class Hunt:
             return kills.Fate(defect.name, "error", reason, hash=defect.hash, commit=self.tree.commit)
         if why := patches.does_not_apply(defect, self.tree.folder):
             return error(f"does not apply: {why}")
-        seen, folder = [], self.out / "spoilt"
-        with self.tree.spoilt(defect):
-            if why := self.tree.build():
+        seen = []
+        with self.tree.spoilt(defect) as why:
+            if why:
                 return error(f"does not compile: {why}")
             for tier in self.tiers:
                 cases = [c for c in self.clean.values() if c.data["tier"] == tier and defect.touches(c.data["exercises"])]
-                if not cases:
-                    continue
-                shutil.rmtree(folder, ignore_errors=True)
-                self.tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()])
-                ran = {c.id: c for c in results.load(folder).cases} if folder.exists() else {}
-                seen += [kills.seen(c, ran.get(c.id), tier, self.noise.get(c.id)) for c in cases]
-                if not defect.right and any(k.tier == tier and k.by == "truth" for k in seen):
+                # what is said to be subtle, or right, is shown by all that the smallest tier measures
+                whole = defect.right or tier == "smoke" and (defect.subtle or defect.equivalent)
+                for batch in [cases] if whole and cases else order.batches(cases, self.past, defect):
+                    seen += self.look(batch, tier)
+                    if not defect.right and any(k.by == "truth" for k in seen):
+                        break
+                if not defect.right and any(k.by == "truth" for k in seen):
                     break
+        fate = kills.fate(defect, seen, self.tiers, self.tree.commit)
+        self.past.learn(defect, fate)
+        return fate
+
+    def look(self, cases, tier):
+        """What these cases see of the defect that is planted."""
+        folder = self.out / "spoilt"
         shutil.rmtree(folder, ignore_errors=True)
-        return kills.fate(defect, seen, self.tiers, self.tree.commit)
+        self.tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()])
+        ran = {c.id: c for c in results.load(folder).cases} if folder.exists() else {}
+        found = [kills.seen(c, ran.get(c.id), tier, self.noise.get(c.id)) for c in cases]
+        shutil.rmtree(folder, ignore_errors=True)
+        return found
 
 
 def kept(path, defect, commit):
@@ -134,14 +157,22 @@ def hunt(arguments, wanted):
             shutil.rmtree(fates, ignore_errors=True)
         state.prepare()
         found = []
+        wanted = sorted(wanted, key=lambda d: (d.reach, d.name))   # most answers come soon
         for i, defect in enumerate(wanted, 1):
             path = fates / f"{defect.name}.json"
             fate = kept(path, defect, state.tree.commit) if arguments.resume else None
             if fate is None:
+                began = time.monotonic()
                 fate = state.judge(defect)
+                fate.seconds = round(time.monotonic() - began, 1)
                 write_whole(path, json.dumps(kills.to_json(fate), indent=1) + "\n")
+            else:
+                state.past.learn(defect, fate)
             found.append(fate)
             print(cut(f"{i:>3}/{len(wanted)}  {line(fate)}", 130), flush=True)
+        if arguments.record:
+            known = record.read()
+            record.write(known | {f.name: record.entry_of(f, state.tiers) for f in found})
         write_whole(arguments.out / "kills.json", json.dumps(matrix(found, wanted, state)) + "\n")
     from reports.kills import build
     print(summary(found, wanted, state.tiers))

@@ -1,5 +1,6 @@
 """Who killed a defect: each metric of a spoilt run against the clean one, by the rules of the gate."""
 
+import collections
 import math
 from dataclasses import asdict, dataclass, field
 
@@ -20,6 +21,7 @@ class Kill:
     kind: str
     by: str               # truth, change or '' for a case that moved without being red, or not at all
     moved: float | None   # relative to the clean value; None where there is no size
+    kinds: dict = field(default_factory=dict)   # how many metrics are of which kind
 
 
 @dataclass
@@ -33,6 +35,12 @@ class Fate:
     commit: str = ""
     largest_smoke_move: float | None = None   # relative, of any metric of the smoke tier; None without one
     seen: list = field(default_factory=list)  # Kill of each case that ran
+    seconds: float = 0.0      # wall time, building and running
+
+    @property
+    def kinds(self):
+        """How many metrics of all cases that ran are of which kind."""
+        return dict(sum((collections.Counter(k.kinds) for k in self.seen), collections.Counter()))
 
 
 def seen(clean, spoilt, tier, noise=None):
@@ -40,7 +48,7 @@ def seen(clean, spoilt, tier, noise=None):
     rows = _rows(clean, spoilt, noise)
     worst = rules.order(rows)[0]
     by = "truth" if worst.kind in TRUTH else "change" if worst.kind in CHANGE else ""
-    return Kill(clean.id, tier, worst.metric, worst.kind, by, largest_move(rows))
+    return Kill(clean.id, tier, worst.metric, worst.kind, by, largest_move(rows), dict(collections.Counter(r.kind for r in rows)))
 
 
 def _rows(clean, spoilt, noise):

@@ -34,6 +34,8 @@ class Defect:
     hash: str        # of the whole file
     right: bool = False
 
+    reach: int = 0   # how far it reaches: 0 sources alone, 1 a header, 2 what is no source, such as the build itself
+
     def touches(self, exercises):
         """Whether a case with these modules is one that may catch it."""
         return any(m.startswith("harness") or m in exercises for m in self.modules)
@@ -64,7 +66,12 @@ def read(path):
         raise GateError(f"{path}: an empty line and 'diff --git ...' come after the head")
     return Defect(path.stem, path, fields["Wrong"], tuple(m.strip() for m in fields["Module"].split(",")),
                   fields["Subtle"] == "yes",
-                  fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(text.encode()).hexdigest(), right)
+                  fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(text.encode()).hexdigest(), right, reach_of(difference))
+
+
+def reach_of(difference):
+    suffixes = {Path(line.removeprefix("+++ b/")).suffix for line in difference.splitlines() if line.startswith("+++ ")}
+    return 0 if suffixes <= {".cpp"} else 1 if suffixes <= {".cpp", ".hpp"} else 2
 
 
 def read_all(folder=FOLDER):

@@ -1,11 +1,12 @@
-"""A scratch tree: a copy of one commit that is built, spoilt by a patch, built again and mended. One compiler cache serves them
-all, and only what a patch changes is compiled."""
+"""A scratch tree: a copy of one commit that is built once; then each defect is applied, what it changes is compiled beside the
+clean objects, and the tree is mended. One compiler cache serves them all."""
 
 import contextlib
 import os
 import shutil
 import subprocess
 
+from defects.units import Units, complaint
 from gate.files import ROOT, GateError
 
 
@@ -22,10 +23,10 @@ class Tree:
         if known.returncode != 0:
             raise GateError(f"{commit}: no commit of this repository")
         self.commit = known.stdout.strip()
-
-    @property
-    def program(self):
-        return self.folder / "build" / "release" / "furrow-program"
+        self.built = self.folder / "build" / "release"
+        self.program = self.built / "furrow-program"
+        self.units = None
+        self.environment = os.environ | {"CCACHE_BASEDIR": str(self.folder.parent), "CCACHE_NOHASHDIR": "1"}
 
     def prepare(self):
         """Brings the tree to its commit, whatever was left in it, and keeps what was built."""
@@ -43,30 +44,46 @@ class Tree:
                 raise GateError(f"{self.folder}: no scratch tree: {done.stderr.strip()}", 3)
 
     def build(self):
-        """'' when the program was built, else the compiler's last words."""
-        environment = os.environ | {"CCACHE_BASEDIR": str(self.folder.parent), "CCACHE_NOHASHDIR": "1"}
+        """Builds the whole program; '' or the compiler's first complaint."""
         for words in (["cmake", "--preset", "release"],
                       ["cmake", "--build", "--preset", "release", "--target", "furrow-program", "-j", str(self.jobs)]):
-            if words[1] == "--preset" and (self.folder / "build/release/build.ninja").exists():
+            if words[1] == "--preset" and (self.built / "build.ninja").exists():
                 continue
-            done = subprocess.run(words, cwd=self.folder, env=environment, capture_output=True, text=True)
-            if done.returncode != 0:
-                lines = [line for line in (done.stdout + done.stderr).splitlines() if "error" in line.lower()]
-                return (lines or [f"'{' '.join(words)}' failed"])[0]
+            if why := complaint(words, self.folder, self.environment):
+                return why
+        self.program = self.built / "furrow-program"
         return ""
 
     @contextlib.contextmanager
     def spoilt(self, defect):
-        """The tree with the defect in it; mended afterwards."""
+        """The tree with the defect in it, built: yields '' or the compiler's first complaint. Mended afterwards."""
         patch = str(defect.path.resolve())
+        files = [line.split("\t")[2] for line in _git(self.folder, "apply", "--numstat", patch).stdout.splitlines()]
+        if (self.built / "compile_commands.json").exists() and self.units is None:
+            self.units = Units(self.folder, self.built, self.environment, self.jobs)
+        units = self.units.affected(files) if self.units else None
+        before = {f: os.stat(self.folder / f).st_mtime_ns for f in files if (self.folder / f).exists()}
         done = _git(self.folder, "apply", patch)
         if done.returncode != 0:
             raise GateError(f"{defect.name}: does not apply: {(done.stderr.strip().splitlines() or [''])[-1]}", 3)
         try:
-            yield
+            yield self.build() if units is None else self._build_beside(units)
         finally:
             _git(self.folder, "checkout", "-q", "--", ".")
             _git(self.folder, "clean", "-q", "-fd", "-e", "build")
+            if units is None:   # the clean objects are gone
+                self.build()
+            else:
+                for name, moment in before.items():
+                    os.utime(self.folder / name, ns=(moment, moment))
+            self.program = self.built / "furrow-program"
+
+    def _build_beside(self, units):
+        beside = self.folder / "build" / "spoilt"
+        shutil.rmtree(beside, ignore_errors=True)
+        objects, why = self.units.compile(units, beside)
+        self.program = beside / "furrow-program"
+        return why or self.units.link(objects, self.program)
 
     def run(self, words):
         """Exit code of the tree's own program."""
