@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
       furrow::kernel_family(),
       furrow::operators_family(),
       furrow::material_point_family(),
+      furrow::loads_family(),
       furrow::elastodynamics_family(),
       furrow::elastic_plastic_family(),
       furrow::earth_pressure_family(),

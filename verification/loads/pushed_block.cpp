@@ -1,0 +1,37 @@
+// A free block under a force that all its particles share: momentum is force times time, and all work goes into motion.
+#include "verification/loads/problems.hpp"
+
+namespace furrow::loads_cases {
+
+Problem pushed_block(const Parameters& input) {
+  const LinearElastic material = read_elastic(input);
+  const int n = static_cast<int>(input.integer("cells", 4, 100));
+  const double stress = input.quantity("stress", dimension::stress, range::positive);
+  const std::string load = input.choice("load", {"applied", "held"});
+  const double passes = input.number("passes", range::positive);
+  const Scheme scheme = read_scheme(input);
+
+  return [=](Run& run) {
+    const double dx = run.resolution().spacing, L = n * dx;
+    const double c = std::sqrt((material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus) / material.reference_density);
+    Simulation<2> simulation;
+    simulation.body = elastic_body(run, material, scheme);
+    simulation.body.add(block(n, n, dx, {0.0, 0.0}));
+
+    const Vector<2> F = stress * L * Vector<2>(1.0, 0.5);
+    const std::vector<std::int32_t> all = simulation.body.particles.id;
+    if (load == "applied") simulation.body.loads.forces.push_back({"pull", all, [F](double) { return F; }});
+    if (load == "held") simulation.body.loads.held = {all, std::vector<Vector<2>>(all.size(), F / static_cast<double>(n * n))};
+
+    DynamicRun<2> dynamic(run, simulation);
+    dynamic.until(passes * L / c, 200, 2);
+    exercise(run, scheme);
+    run.exercises(load == "applied" ? "boundaries/applied_force" : "boundaries/held_forces");
+
+    const Vector<2> P = simulation.momentum(), given = simulation.time() * F;
+    run.measure("momentum", (P - given).norm() / given.norm());
+    measure_energy(run, dynamic);
+  };
+}
+
+}  // namespace furrow::loads_cases
