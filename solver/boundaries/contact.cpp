@@ -56,7 +56,10 @@ void Contact<Dim>::touch_one(std::size_t id, const Vector<Dim>& x, double mass, 
   if (law.damping > 0.0) f = std::max(0.0, f + 2.0 * law.damping * std::sqrt(spring * mass) * approach);
   Vector<Dim> force = f * n;
 
-  if (law.friction > 0.0 || law.adhesion > 0.0) {
+  // At a sharp corner there is nothing to slide along: with friction a particle would stick to it for good, a nose on the edge.
+  const bool corner = outline.size() > 1 && outline.radius == 0.0 && (near.share <= 0.0 || near.share >= 1.0);
+  if (corner) s.setZero();
+  if (!corner && (law.friction > 0.0 || law.adhesion > 0.0)) {
     const double k = law.sticking_stiffness * area / spacing, hold = law.friction * pressing + law.adhesion * area;
     // The surface may have turned since the last look: the stretch stays along it, and as long as it was.
     const double before = s.norm();

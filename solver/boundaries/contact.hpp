@@ -27,8 +27,8 @@ struct LennardJones {
 /// stiffness delta/dx acts on the area dx^(Dim-1); or the Lennard-Jones form in its place. A damper of the share `damping` of
 /// critical damping of the particle on its spring takes out chatter, and never pulls.
 ///
-/// Along the surface: Coulomb's friction and adhesion with sticking. An elastic stretch s follows the sliding, the traction is
-/// sticking_stiffness s/dx, and the stretch slips where it would exceed friction p + adhesion (p without the damper).
+/// Along the surface (sharp corners have none): Coulomb's friction and adhesion with sticking. An elastic stretch s follows sliding,
+/// the traction is sticking_stiffness s/dx, and slips where it would exceed friction p + adhesion (p without the damper).
 struct ContactLaw {
   double stiffness = 0.0;            ///< Pa; rho c^2 of the softer body makes it as stiff as a layer of particles
   double damping = 0.0;

@@ -131,6 +131,23 @@ TEST_CASE("forces on particles and on nodes are equal and opposite, and have no 
   if (!rough) CHECK(std::abs(moment) < 1e-12 * scale);   // friction acts at the particle's centre, half a spacing off the surface
 }
 
+TEST_CASE("friction has nothing to hold on to at a sharp corner, and does where it is rounded", "[contact]") {
+  const double radius = GENERATE(0.0, 1e-3);
+  const Vector<2> out = Vector<2>(1.0, 1.0).normalized(), along(out[1], -out[0]);
+  Outline<2> outline = Outline<2>::through(square, radius);
+  Contact<2> contact;
+  contact.law.stiffness = contact.law.sticking_stiffness = 1e6;
+  contact.law.friction = 0.5;
+  Particles<2> p = particle(Vector<2>(1.0, 1.0) + (radius + 0.4 * dx) * out, 0.2 * along);
+  contact.touch(p, dx, 0.0, p.velocity, p.acceleration, outline, [](std::size_t) { return true; });
+  p.acceleration[0].setZero();
+  contact.touch(p, dx, 1e-3, p.velocity, p.acceleration, outline, [](std::size_t) { return true; });
+  const double normal = p.acceleration[0].dot(out), held = -p.acceleration[0].dot(along);
+  CHECK(normal == Approx(1e6 * 0.1 * dx / 2.0));
+  if (radius == 0.0) CHECK(std::abs(held) < 1e-12 * normal);
+  else CHECK(held == Approx(1e6 * 0.2 * 1e-3 / 2.0));   // the stretch of a millisecond, less than half of what pressing allows
+}
+
 TEST_CASE("a contact without damping gives back what it took", "[contact]") {
   Flight flight{.p = particle({0.5, 1.02}, {0.0, -2.0}), .contact = {}, .outline = Outline<2>::through(square, 0.0)};
   flight.contact.law.stiffness = 2e6;
