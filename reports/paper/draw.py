@@ -225,7 +225,7 @@ def forces(cases, name):
         for series in stages["series"] if stages else []:
             x, y = 1e3 * np.array(series["x"]), np.array(series["y"])
             if series["label"] == "mean":
-                axes.plot(x, y, color=LIGHT["ink"], linewidth=1.4, label="normal, mean over 0.5 mm of travel")
+                axes.plot(x, y, color=LIGHT["ink"], linewidth=1.4, label="magnitude, mean over 0.5 mm of travel")
             else:
                 axes.annotate(series["label"], (x.mean(), y.max()), fontsize=7, ha="center", va="bottom", color=LIGHT["c2"])
                 axes.axvspan(x[0], x[1], color=LIGHT["c2"], alpha=0.05 + 0.05 * (k % 2))

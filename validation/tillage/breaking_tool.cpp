@@ -15,7 +15,7 @@ Problem breaking_tool(const Parameters& input) {
   return [=](Run& run) {
     const CoupledResult result = coupled_cut(run, setup);
     const CoupledHistory& h = result.history;
-    const std::vector<double> F = smoothed(h.time, h.normal, filter);
+    const std::vector<double> F = smoothed(h.time, h.whole, filter);
     const auto stages = stages_of(h, filter);
     const double v = setup.blade.speed;
 
@@ -26,7 +26,8 @@ Problem breaking_tool(const Parameters& input) {
         if (column[k] > above) return k;
       return column.size();
     };
-    const std::size_t yields = first(h.plastic_strain, 1e-3), breaks = first(h.failed, 0.0);
+    const std::size_t yields = first(h.plastic_strain, StageDefinition{}.plastic_onset), begins = first(h.softened, 0.0),
+                      breaks = first(h.failed, 0.0);
     const auto event = [&](const std::string& name, std::size_t k, const std::string& why) {
       if (k < h.time.size()) {
         run.measure(name + "_time", h.time[k], "s");
@@ -47,9 +48,9 @@ Problem breaking_tool(const Parameters& input) {
     run.measure("failed_particles", h.failed.back());
     run.measure("greatest_moment", *std::max_element(h.moment.begin(), h.moment.end()), "N");
 
-    // The plateau: from where the section flows until the first particle fails.
+    // The plateau: from where the section flows until fracture begins.
     double moment = 0.0, limit = 0.0, n = 0.0;
-    const std::size_t end = std::min(breaks, h.time.size());
+    const std::size_t end = std::min(begins, h.time.size());
     for (std::size_t k = 0; k < end; ++k)
       if (h.plastic_moment[k] > 0.0) moment += h.moment[k], limit += h.plastic_moment[k], n += 1.0;
     if (n > 0.0) run.measure("plateau_moment", moment / n, "N", {limit / n, 0.0});

@@ -97,6 +97,8 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& s) {
   add("tool_plastic_strain", "eps_p", "1", "greatest equivalent plastic strain in the tool",
       [&] { return greatest(coupled.stiff.body.particles.plastic_strain); });
   add("tool_damage", "D", "1", "greatest damage in the tool", [&] { return greatest(coupled.stiff.body.particles.damage); });
+  add("tool_softened", "n_s", "1", "particles of the tool whose fracture has begun",
+      [&] { return softened_particles(coupled); });
   add("tool_failed", "n_f", "1", "failed particles of the tool", [&] { return failed_particles(coupled); });
   add("penetration", "delta/dx", "1", "largest overlap of soil and tool so far, in spacings of the soil",
       [&] { return coupled.contact.largest_penetration(); });
@@ -143,10 +145,12 @@ CoupledResult coupled_cut(Run& run, const CoupledSetup& s) {
     h.tangential.push_back(F.dot(u));
     h.draft.push_back(F[0]);
     h.vertical.push_back(F[1]);
+    h.whole.push_back(F.norm());
     h.actuator.push_back(sign * (A_x[k] - A_x[k - 1]) / dt);
     for (const auto& [column, name] : {std::pair{&h.deflection, "tip_deflection"}, std::pair{&h.beam, "beam_deflection"},
                                        std::pair{&h.moment, "clamp_moment"}, std::pair{&h.plastic_moment, "plastic_moment"},
-                                       std::pair{&h.plastic_strain, "tool_plastic_strain"}, std::pair{&h.failed, "tool_failed"}})
+                                       std::pair{&h.plastic_strain, "tool_plastic_strain"}, std::pair{&h.softened, "tool_softened"},
+                                       std::pair{&h.failed, "tool_failed"}})
       column->push_back(dynamic.column(name)[k]);
   }
   result.penetration = dynamic.column("penetration").back();
@@ -201,16 +205,16 @@ double mean_over(const CoupledHistory& h, const std::vector<double>& column, dou
 std::array<Stage, 5> stages_of(const CoupledHistory& h, double filter_time) {
   StageDefinition definition;
   definition.filter = filter_time;
-  return force_stages({h.time, h.normal, h.plastic_strain, h.failed}, definition);
+  return force_stages({h.time, h.whole, h.plastic_strain, h.softened, h.failed}, definition);
 }
 
 void stage_figure(Run& run, const CoupledHistory& h, const std::array<Stage, 5>& stages, double filter_time) {
   Figure& figure = run.figure({.name = "stages",
-                               .title = "Stages of the force normal to the face",
+                               .title = "Stages of the force on the tool",
                                .caption = in_words(stages),
                                .x = {"time", "s"},
                                .y = {"force per width", "N/m"}});
-  figure.add({.label = "mean", .x = h.time, .y = smoothed(h.time, h.normal, filter_time)});
+  figure.add({.label = "mean", .x = h.time, .y = smoothed(h.time, h.whole, filter_time)});
   for (const Stage& stage : stages)
     if (stage.present)
       figure.add({.label = std::string(stage.name),

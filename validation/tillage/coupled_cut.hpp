@@ -26,10 +26,11 @@ struct CoupledHistory {
   std::vector<double> normal,
       tangential;   ///< force of soil and stone on the tool along the face's inward normal and up the face, N/m
   std::vector<double> draft, vertical;          ///< the same against the motion, and up
+  std::vector<double> whole;                    ///< magnitude of the same, whichever way the bent tool is pushed, N/m
   std::vector<double> actuator;                 ///< force along the motion with which the actuator drives, N/m
   std::vector<double> deflection, beam;         ///< of the tool's end, and of the cantilever with the soil's forces, m
   std::vector<double> moment, plastic_moment;   ///< at the clamp, and of the section that flows, N
-  std::vector<double> plastic_strain, failed;   ///< greatest of the tool; number of particles
+  std::vector<double> plastic_strain, softened, failed;   ///< greatest of the tool; numbers of particles
 };
 
 struct CoupledResult {
@@ -50,7 +51,8 @@ void measure_coupling(Run& run, const CoupledResult& result);
 /// Mean of a column over times from `from` to `to`, s.
 double mean_over(const CoupledHistory& history, const std::vector<double>& column, double from, double to);
 
-/// Stages of the whole force on the tool along its normal; the filter is `filter_time` long, in s.
+/// Stages of the magnitude of the whole force on the tool; the filter is `filter_time` long, in s. A tool that bends by tens of
+/// degrees turns its face away from where that stood at first: a component along the first normal would fall by the turning alone.
 std::array<Stage, 5> stages_of(const CoupledHistory& history, double filter_time);
 void stage_figure(Run& run, const CoupledHistory& history, const std::array<Stage, 5>& stages, double filter_time);
 

@@ -22,7 +22,7 @@ std::vector<double> smoothed(const std::vector<double>& time, const std::vector<
 
 std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& d) {
   const std::size_t n = h.time.size();
-  if (n < 3 || h.force.size() != n || h.plastic_strain.size() != n || h.failed.size() != n)
+  if (n < 3 || h.force.size() != n || h.plastic_strain.size() != n || h.softened.size() != n || h.failed.size() != n)
     throw std::invalid_argument("stages need three rows or more, and as many of each column");
   for (std::size_t k = 1; k < n; ++k)
     if (!(h.time[k] > h.time[k - 1])) throw std::invalid_argument("times of a force history must rise");
@@ -92,12 +92,14 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
     return stages;
   }
   const std::size_t fallen = first_where(highest, [&](std::size_t k) { return F[k] < d.fall * F[highest]; });
+  const std::size_t begun = first_where(0, [&](std::size_t k) { return h.softened[k] > 0.0; });
   // Where F last was within 5 % of its greatest: from there on it falls for good.
   std::size_t edge = highest;
   for (std::size_t k = highest; k < n; ++k)
     if (F[k] >= 0.95 * F[highest]) edge = k;
-  if (h.time[cracked] <= h.time[edge] + d.filter) set(peak, highest, edge);
-  else peak.reason = "the force falls before anything has failed";
+  const bool caused = begun < n && h.time[begun] <= h.time[edge] + d.filter;
+  if (caused && cracked <= fallen) set(peak, highest, edge);
+  else peak.reason = caused ? "the force has fallen before anything has failed" : "the force falls before fracture begins";
   const bool stays = fallen < n && std::all_of(F.begin() + static_cast<std::ptrdiff_t>(fallen), F.end(),
                                                [&](double f) { return f < d.fall * F[highest]; });
   if (!peak.present) decline.reason = "no peak with fracture before it";

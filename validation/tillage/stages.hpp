@@ -15,14 +15,17 @@ struct ForceHistory {
   std::vector<double> time;             ///< s, rising
   std::vector<double> force;            ///< N/m
   std::vector<double> plastic_strain;   ///< greatest in the tool
-  std::vector<double> failed;           ///< number of failed particles of the tool
+  std::vector<double> softened;         ///< number of the tool's particles whose fracture has begun: some strength is gone
+  std::vector<double> failed;           ///< number of those that have failed: all of it is gone
 };
 
 /// The definition's numbers.
 struct StageDefinition {
   double filter = 0.0;           ///< s: width of the centred mean F that everything is read from
   double onset = 0.05;           ///< share of the greatest F at which the rise begins
-  double plastic_onset = 1e-3;   ///< plastic strain from which a tool counts as yielding
+  /// Plastic strain of the outer fibre from which a bent tool counts as yielding. At three times the strain at which the fibre
+  /// yields a third of the section is still elastic, and it carries 0.96 of its plastic moment: before, no force shows it.
+  double plastic_onset = 1e-2;
   double slope_drop = 0.5;       ///< yield shows where F then climbs less than this share of the slope of the rise
   double strengthening = 0.05;   ///< F must grow by this share between yield and peak
   double fall = 0.5;             ///< share of the peak that F falls below, and stays below, in a decline
@@ -43,9 +46,8 @@ struct Stage {
 ///   that the rise took, three filter widths at least, is less than slope_drop of the mean slope of the rise. It ends with the
 ///   lowest F in that time where F dips, and with that time where F only climbs more slowly.
 /// hardening: from the end of yield to the peak, F growing by `strengthening` at least.
-/// peak: the greatest F after yield, with fracture: particles have failed before F has fallen below `fall` of it, and the first
-/// has
-///   failed no later than one filter width after F began to fall for good.
+/// peak: the greatest F after yield, with fracture: the first particle has begun to lose its strength no later than one filter
+///   width after F began to fall for good, and one has failed before F has fallen below `fall` of its greatest.
 /// decline: F falls below `fall` of the peak after fracture and stays there until the end.
 /// A stage without its cause in the tool is absent: a drop of the force alone, as where the first chip shears off at the free
 /// face, is no yield. Throws std::invalid_argument for histories of different lengths, times that do not rise, or a filter that

@@ -179,6 +179,19 @@ double plastic_moment(const CoupledSimulation& coupled, const Tool& tool, const 
 
 double greatest(const std::vector<double>& field) { return *std::max_element(field.begin(), field.end()); }
 
+double softened_particles(const CoupledSimulation& coupled) {
+  const Body<2>& body = coupled.stiff.body;
+  return std::visit(
+      [&](const auto& law) {
+        double count = 0.0;
+        if constexpr (requires { law.damage; })
+          for (std::size_t i = 0; law.damage && i < body.particles.size(); ++i)
+            count += law.damage->integrity(body.state(i)) < 1.0 ? 1.0 : 0.0;
+        return count;
+      },
+      body.material);
+}
+
 double failed_particles(const CoupledSimulation& coupled) {
   const Particles<2>& p = coupled.stiff.body.particles;
   double count = 0.0;

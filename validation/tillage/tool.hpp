@@ -53,5 +53,7 @@ double plastic_moment(const CoupledSimulation& coupled, const Tool& tool, const 
 /// Greatest of a field of the tool.
 double greatest(const std::vector<double>& field);
 double failed_particles(const CoupledSimulation& coupled);
+/// Those that have lost some of their strength at least.
+double softened_particles(const CoupledSimulation& coupled);
 
 }  // namespace furrow::tillage_cases

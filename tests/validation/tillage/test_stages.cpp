@@ -30,8 +30,9 @@ ForceHistory whole() {
     h.time.push_back(t);
     h.force.push_back(
         between(t, {{0.0, 0.0}, {0.2e-3, 0.0}, {1.5e-3, 10e3}, {2e-3, 9e3}, {7e-3, 18e3}, {8e-3, 4.5e3}, {10e-3, 4e3}}));
-    h.plastic_strain.push_back(t < 1.5e-3 ? 0.0 : 20.0 * (t - 1.5e-3));
+    h.plastic_strain.push_back(t < 1.5e-3 ? 0.0 : 200.0 * (t - 1.5e-3));
     h.failed.push_back(t < 6.9e-3 ? 0.0 : 1.0 + std::floor(1e4 * (t - 6.9e-3)));
+    h.softened.push_back(h.failed.back());
   }
   return h;
 }
@@ -67,7 +68,7 @@ TEST_CASE("all five stages of a curve that has them", "[stages]") {
 TEST_CASE("a chip at the free face is no yield: the same force with a tool that stays elastic", "[stages]") {
   ForceHistory h = whole();
   h.plastic_strain.assign(h.time.size(), 0.0);
-  h.failed.assign(h.time.size(), 0.0);
+  h.softened.assign(h.time.size(), 0.0), h.failed.assign(h.time.size(), 0.0);
   const auto stages = force_stages(h, definition);
   CHECK(stage(stages, "rise").present);
   for (const char* name : {"yield", "hardening", "peak", "decline"}) {
@@ -80,7 +81,7 @@ TEST_CASE("a chip at the free face is no yield: the same force with a tool that 
 TEST_CASE("a tool that yields and holds has no peak with fracture and no decline", "[stages]") {
   ForceHistory h = whole();
   for (std::size_t k = 700; k <= 1000; ++k) h.force[k] = 18e3;
-  h.failed.assign(h.time.size(), 0.0);
+  h.softened.assign(h.time.size(), 0.0), h.failed.assign(h.time.size(), 0.0);
   const auto stages = force_stages(h, definition);
   CHECK(stage(stages, "yield").present);
   CHECK(stage(stages, "hardening").present);
@@ -91,7 +92,7 @@ TEST_CASE("a tool that yields and holds has no peak with fracture and no decline
 TEST_CASE("a perfectly plastic tool does not harden", "[stages]") {
   ForceHistory h = whole();
   for (std::size_t k = 150; k <= 1000; ++k) h.force[k] = 10e3;
-  h.failed.assign(h.time.size(), 0.0);
+  h.softened.assign(h.time.size(), 0.0), h.failed.assign(h.time.size(), 0.0);
   const auto stages = force_stages(h, definition);
   CHECK(stage(stages, "yield").present);
   CHECK_FALSE(stage(stages, "hardening").present);
@@ -114,10 +115,19 @@ TEST_CASE("plastic strain that the force does not show is no yield", "[stages]")
 
 TEST_CASE("a force that falls before anything breaks has no peak with fracture", "[stages]") {
   ForceHistory h = whole();
-  for (std::size_t k = 0; k < h.time.size(); ++k) h.failed[k] = h.time[k] > 9e-3 ? 1.0 : 0.0;
+  for (std::size_t k = 0; k < h.time.size(); ++k) h.softened[k] = h.failed[k] = h.time[k] > 9e-3 ? 1.0 : 0.0;
   const auto stages = force_stages(h, definition);
   CHECK_FALSE(stage(stages, "peak").present);
   CHECK_FALSE(stage(stages, "decline").present);
+}
+
+TEST_CASE("where strength is lost bit by bit, the peak is where that begins", "[stages]") {
+  ForceHistory h = whole();
+  for (std::size_t k = 0; k < h.time.size(); ++k) h.failed[k] = h.time[k] > 7.4e-3 ? 1.0 : 0.0;
+  CHECK(stage(force_stages(h, definition), "peak").present);
+  CHECK(stage(force_stages(h, definition), "decline").present);
+  for (std::size_t k = 0; k < h.time.size(); ++k) h.failed[k] = h.time[k] > 8e-3 ? 1.0 : 0.0;
+  CHECK(stage(force_stages(h, definition), "peak").reason == "the force has fallen before anything has failed");
 }
 
 TEST_CASE("a force that recovers has not declined", "[stages]") {
