@@ -8,8 +8,8 @@ import shutil
 import time
 from pathlib import Path
 
-from defects import kills, order, patches, record
-from defects.scratch import Tree
+from defects import kills, order, patches, record, sensitivity
+from defects.scratch import SwitchedTree, Tree
 from gate import baseline
 from gate.command import exit_code
 from gate.compare import TIERS
@@ -35,11 +35,15 @@ def parser():
     command.add_argument("--tier", choices=TIERS, default="nightly", help="largest tier to run (default: nightly)")
     command.add_argument("--cases", action="append", default=[], metavar="GLOB", help="only cases whose id matches")
     command.add_argument("--alive", action="store_true", help="only defects that reference/kills.json does not know as killed")
+    command.add_argument("--whole", action="store_true",
+                         help="run all that the smoke tier has on subtle defects, to see that they are")
     command.add_argument("--resume", action="store_true", help="keep what was found for the same patch and commit")
     command.add_argument("--record", action="store_true", help="write what is found to reference/kills.json")
     command.add_argument("--commit", default="HEAD", help="commit to plant them in (default: HEAD)")
     command.add_argument("--out", type=Path, default=OUT, metavar="DIR", help="folder of the kill matrix (default: runs/defects)")
     command.add_argument("--jobs", type=int, metavar="N", help="compilers and cases side by side (default: as many as cores)")
+    command.add_argument("--sensitivity", nargs="*", metavar="NAME", default=None,
+                         help="instead: the smallest change of these parameters, or of all, that a case sees")
     command.add_argument("--check", action="store_true", help="only see whether every patch applies")
     command.add_argument("--patches", type=Path, default=patches.FOLDER, help=argparse.SUPPRESS)
     return main
@@ -76,64 +80,92 @@ def check(wanted):
 class Hunt:
     def __init__(self, arguments):
         self.out, self.resume, self.jobs, self.only = arguments.out, arguments.resume, arguments.jobs, arguments.cases
+        self.whole = arguments.whole
         self.tiers = TIERS[:TIERS.index(arguments.tier) + 1]
-        self.tree = Tree(commit=arguments.commit, jobs=arguments.jobs)
+        self.switched = SwitchedTree(arguments.commit, arguments.jobs)
+        self.alone = Tree(arguments.commit, arguments.jobs)
+        self.all = patches.read_all(arguments.patches)
         self.noise = baseline.read_all()
         self.past = order.Past()
+        self.clean = {}   # folder of a tree -> its clean cases by id
+
+    @property
+    def commit(self):
+        return self.alone.commit
 
     def words(self):
         return ["--no-report", "--quiet"] + (["--jobs", str(self.jobs)] if self.jobs else [])
 
-    def prepare(self):
-        """Builds the clean tree and runs it; its cases by id."""
-        self.tree.prepare()
-        if why := self.tree.build():
-            raise GateError(f"the clean tree does not build: {why}", 3)
-        clean = self.out / "clean"
-        if not (self.resume and self._same_commit(clean)):
-            shutil.rmtree(clean, ignore_errors=True)
-        # --resume knows by the program's own bytes what may be kept
-        self.tree.run(["matrix", "--tier", self.tiers[-1], "--out", str(clean.resolve()), *self.words(),
-                       *(word for glob in self.only for word in ("--only", glob)), *(["--resume"] if clean.exists() else [])])
-        self.clean = {c.id: c for c in results.load(clean).cases if c.data.get("metrics")}
-        if not self.clean:
-            raise GateError("the clean tree ran no case", 3)
+    def prepare(self, wanted):
+        """Plants what can be switched."""
+        self.switched.prepare()
+        names = {d.name for d in wanted if not d.right}
+        if why := self.switched.plant({n: d for n, d in enumerate(self.all, 1) if d.name in names}):
+            raise GateError(f"the tree with all defects does not build: {why}", 3)
+
+    def clean_of(self, tree):
+        """Cases of the clean program of a tree, by id; it is run when first asked."""
+        if tree.folder not in self.clean:
+            folder = self.out / f"clean-{tree.folder.name}"
+            if not (self.resume and self._same_commit(folder)):
+                shutil.rmtree(folder, ignore_errors=True)
+            # --resume knows by the program's own bytes what may be kept
+            tree.run(["matrix", "--tier", self.tiers[-1], "--out", str(folder.resolve()), *self.words(),
+                      *(word for glob in self.only for word in ("--only", glob)), *(["--resume"] if folder.exists() else [])])
+            found = {c.id: c for c in results.load(folder).cases if c.data.get("metrics")} if folder.exists() else {}
+            if not found:
+                raise GateError("the clean tree ran no case", 3)
+            self.clean[tree.folder] = found
+        return self.clean[tree.folder]
 
     def _same_commit(self, folder):
         try:
-            return read_json(folder / "run.json")["provenance"]["commit"] == self.tree.commit
+            return read_json(folder / "run.json")["provenance"]["commit"] == self.commit
         except (OSError, ValueError, KeyError, TypeError):
             return False
 
     def judge(self, defect):
-        """Fate of one defect. The tree is clean before and after."""
-        def error(reason):
-            return kills.Fate(defect.name, "error", reason, hash=defect.hash, commit=self.tree.commit)
-        if why := patches.does_not_apply(defect, self.tree.folder):
-            return error(f"does not apply: {why}")
-        seen = []
-        with self.tree.spoilt(defect) as why:
-            if why:
-                return error(f"does not compile: {why}")
-            for tier in self.tiers:
-                cases = [c for c in self.clean.values() if c.data["tier"] == tier and defect.touches(c.data["exercises"])]
-                # what is said to be subtle, or right, is shown by all that the smallest tier measures
-                whole = defect.right or tier == "smoke" and (defect.subtle or defect.equivalent)
-                for batch in [cases] if whole and cases else order.batches(cases, self.past, defect):
-                    seen += self.look(batch, tier)
-                    if not defect.right and any(k.by == "truth" for k in seen):
-                        break
-                if not defect.right and any(k.by == "truth" for k in seen):
-                    break
-        fate = kills.fate(defect, seen, self.tiers, self.tree.commit)
+        """Fate of one defect."""
+        if number := self.switched.numbers.get(defect.name):
+            fate = self.fate_in(self.switched, defect, FURROW_DEFECT=str(number))
+        else:
+            fate = self.judge_alone(defect)
         self.past.learn(defect, fate)
         return fate
 
-    def look(self, cases, tier):
+    def judge_alone(self, defect):
+        """Fate of a defect that is compiled alone. The tree is clean before and after."""
+        def error(reason):
+            return kills.Fate(defect.name, "error", reason.splitlines()[0], hash=defect.hash, commit=self.commit)
+        if self.alone.folder not in self.clean:
+            self.alone.prepare()
+            if why := self.alone.build():
+                raise GateError(f"the clean tree does not build: {why}", 3)
+            self.clean_of(self.alone)
+        if why := patches.does_not_apply(defect, self.alone.folder):
+            return error(f"does not apply: {why}")
+        with self.alone.spoilt(defect) as why:
+            return error(f"does not compile: {why}") if why else self.fate_in(self.alone, defect)
+
+    def fate_in(self, tree, defect, **environment):
+        """Fate of a defect that the program of `tree` has, or has with this environment."""
+        seen = []
+        for tier in self.tiers:
+            cases = [c for c in self.clean_of(tree).values() if c.data["tier"] == tier and defect.touches(c.data["exercises"])]
+            whole = defect.right or defect.equivalent or self.whole and defect.subtle and tier == "smoke"
+            for batch in [cases] if whole and cases else order.batches(cases, self.past, defect):
+                seen += self.look(tree, batch, tier, environment)
+                if not defect.right and any(k.by == "truth" for k in seen):
+                    break
+            if not defect.right and any(k.by == "truth" for k in seen):
+                break
+        return kills.fate(defect, seen, self.tiers, self.commit)
+
+    def look(self, tree, cases, tier, environment):
         """What these cases see of the defect that is planted."""
         folder = self.out / "spoilt"
         shutil.rmtree(folder, ignore_errors=True)
-        self.tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()])
+        tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()], **environment)
         ran = {c.id: c for c in results.load(folder).cases} if folder.exists() else {}
         found = [kills.seen(c, ran.get(c.id), tier, self.noise.get(c.id)) for c in cases]
         shutil.rmtree(folder, ignore_errors=True)
@@ -155,12 +187,12 @@ def hunt(arguments, wanted):
         fates = arguments.out / "fates"
         if not arguments.resume:
             shutil.rmtree(fates, ignore_errors=True)
-        state.prepare()
+        state.prepare(wanted)
         found = []
-        wanted = sorted(wanted, key=lambda d: (d.reach, d.name))   # most answers come soon
+        wanted = sorted(wanted, key=lambda d: (d.name not in state.switched.numbers, d.reach, d.name))   # most answers come soon
         for i, defect in enumerate(wanted, 1):
             path = fates / f"{defect.name}.json"
-            fate = kept(path, defect, state.tree.commit) if arguments.resume else None
+            fate = kept(path, defect, state.commit) if arguments.resume else None
             if fate is None:
                 began = time.monotonic()
                 fate = state.judge(defect)
@@ -171,13 +203,22 @@ def hunt(arguments, wanted):
             found.append(fate)
             print(cut(f"{i:>3}/{len(wanted)}  {line(fate)}", 130), flush=True)
         if arguments.record:
-            known = record.read()
-            record.write(known | {f.name: record.entry_of(f, state.tiers) for f in found})
+            record.write(record.merged(record.read(), found, state.all, state.tiers))
         write_whole(arguments.out / "kills.json", json.dumps(matrix(found, wanted, state)) + "\n")
     from reports.kills import build
     print(summary(found, wanted, state.tiers))
     print(f"kill matrix: {build(arguments.out)}")
     return 3 if any(f.state == "error" for f in found) else 1 if any(f.state == "survived" for f in found) else 0
+
+
+def sensitive(arguments):
+    with locked(arguments.out, "defects"):
+        state = Hunt(arguments)
+        state.prepare(state.all)
+        found = sensitivity.seek(state, arguments.sensitivity, lambda t: print(sensitivity.line(t), flush=True))
+        if arguments.record:
+            sensitivity.write(found)
+    return 0
 
 
 def line(fate):
@@ -191,7 +232,7 @@ def line(fate):
 
 def matrix(found, wanted, state):
     """What reports.kills reads, schema 1."""
-    return {"schema": 1, "commit": state.tree.commit, "tiers": list(state.tiers), "rates": kills.rates(found, state.tiers),
+    return {"schema": 1, "commit": state.commit, "tiers": list(state.tiers), "rates": kills.rates(found, state.tiers),
             "defects": [kills.to_json(f) | {"wrong": d.wrong, "modules": d.modules, "subtle": d.subtle, "source": d.source,
                                             "equivalent": d.equivalent} for f, d in zip(found, wanted)]}
 
@@ -213,6 +254,8 @@ def main(words):
     arguments = parser().parse_args(words)
 
     def command():
+        if arguments.sensitivity is not None:
+            return sensitive(arguments)
         wanted = chosen(arguments)
         return check(wanted) if arguments.check else hunt(arguments, wanted)
     return exit_code(command, of_report=3)

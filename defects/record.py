@@ -14,7 +14,7 @@ FILE = ROOT / "reference" / "kills.json"
 
 @dataclass
 class Entry:
-    """One defect as it was planted last."""
+    """One defect as it was planted last. `wrong` to `equivalent` are its head's, so that a page needs no patch."""
     state: str                # as of kills.Fate
     tier: str                 # that killed it, or the largest that ran; "" of an error
     case: str                 # that killed it first, and the metric that was worst there, why, and how far it moved
@@ -27,6 +27,11 @@ class Entry:
     hash: str = ""            # of the patch
     commit: str = ""
     date: str = ""
+    wrong: str = ""
+    modules: tuple = ()
+    subtle: bool = False
+    source: str = ""
+    equivalent: str = ""
 
 
 def read(path=FILE):
@@ -48,7 +53,7 @@ def write(entries, path=FILE):
     write_whole(path, '{\n "schema": 1,\n "defects": {\n' + ",\n".join(lines) + "\n }\n}\n")
 
 
-def entry_of(fate, tiers):
+def entry_of(fate, defect, tiers):
     """Entry of a fate that was just found with these tiers."""
     by = {"killed": "truth", "changed": "change"}.get(fate.state)
     killer = next((k for k in fate.seen if k.by == by and by and k.tier == fate.tier), None)
@@ -56,8 +61,9 @@ def entry_of(fate, tiers):
         state=fate.state, tier="" if fate.state == "error" else fate.tier or tiers[-1],
         case=killer.case if killer else "", metric=killer.metric if killer else "",
         kind=killer.kind if killer else fate.reason, moved=finite(killer.moved if killer else None),
-        smoke=finite(fate.largest_smoke_move), ran=len(fate.seen), kinds=fate.kinds, hash=fate.hash, commit=fate.commit,
-        date=datetime.date.today().isoformat())
+        smoke=finite(fate.largest_smoke_move), ran=len(fate.seen),
+        kinds=fate.kinds if defect.right else {}, hash=fate.hash, commit=fate.commit, date=datetime.date.today().isoformat(),
+        wrong=defect.wrong, modules=defect.modules, subtle=defect.subtle, source=defect.source, equivalent=defect.equivalent)
 
 
 def finite(x):
@@ -70,21 +76,15 @@ def is_dead(entry, defect, tier):
             and TIERS.index(entry.tier) <= TIERS.index(tier))
 
 
-def rates(entries, defects):
-    """tier -> (killed by the truth, seen at all, that can be killed, of unknown fate): entries of the very patches; a tier counts
-    with those below it. Unknown: not planted since the patch changed, an error, or alive below the tier and not run there."""
-    wrong = [d for d in defects if not d.right and not d.equivalent]
-    result = {}
-    for tier in TIERS:
-        killed = seen = unknown = 0
-        for d in wrong:
-            entry = entries.get(d.name)
-            if entry is None or entry.hash != d.hash or entry.state not in ("killed", "changed", "survived"):
-                unknown += 1
-                continue
-            reached = TIERS.index(entry.tier) <= TIERS.index(tier)
-            killed += entry.state == "killed" and reached
-            seen += entry.state in ("killed", "changed") and reached
-            unknown += entry.state != "killed" and TIERS.index(entry.tier) < TIERS.index(tier)
-        result[tier] = (killed, seen, len(wrong), unknown)
+def merged(known, found, defects, tiers):
+    """`known` with what a hunt with these tiers found (fates); entries of defects that are no more are left out. A survivor of a
+    small tier does not take the place of what a larger one said of the same patch."""
+    patches = {d.name: d for d in defects}
+    result = {name: entry for name, entry in known.items() if name in patches}
+    for fate in found:
+        entry, before = entry_of(fate, patches[fate.name], tiers), result.get(fate.name)
+        larger = (before is not None and before.hash == entry.hash and before.state in ("killed", "changed", "survived")
+                  and entry.state in ("changed", "survived") and TIERS.index(before.tier) > TIERS.index(tiers[-1]))
+        if not larger:
+            result[fate.name] = entry
     return result

@@ -1,11 +1,15 @@
-"""A scratch tree: a copy of one commit that is built once; then each defect is applied, what it changes is compiled beside the
-clean objects, and the tree is mended. One compiler cache serves them all."""
+"""Scratch trees: copies of one commit. In one of them nearly all defects are planted at once, behind switches (switches.py). In the
+other, which is built as it is, a defect that cannot be switched is applied, what it changes is compiled beside the clean objects,
+and the tree is mended. One compiler cache serves them all."""
 
 import contextlib
 import os
+import re
 import shutil
 import subprocess
+from pathlib import Path
 
+from defects import switches
 from defects.units import Units, complaint
 from gate.files import ROOT, GateError
 
@@ -15,10 +19,10 @@ def _git(cwd, *words):
 
 
 class Tree:
-    """Of the project in ROOT, in its build/defects."""
+    """Of the project in ROOT, in a folder of its build/."""
 
-    def __init__(self, commit="HEAD", jobs=None):
-        self.root, self.folder, self.jobs = ROOT, ROOT / "build" / "defects", jobs or os.cpu_count() or 1
+    def __init__(self, commit="HEAD", jobs=None, name="defects"):
+        self.root, self.folder, self.jobs = ROOT, ROOT / "build" / name, jobs or os.cpu_count() or 1
         known = _git(self.root, "rev-parse", commit)
         if known.returncode != 0:
             raise GateError(f"{commit}: no commit of this repository")
@@ -85,6 +89,68 @@ class Tree:
         self.program = beside / "furrow-program"
         return why or self.units.link(objects, self.program)
 
-    def run(self, words):
+    def run(self, words, **environment):
         """Exit code of the tree's own program."""
-        return subprocess.run([str(self.program), *words], cwd=self.folder, stdout=subprocess.DEVNULL).returncode
+        return subprocess.run([str(self.program), *words], cwd=self.folder, env=os.environ | environment,
+                              stdout=subprocess.DEVNULL).returncode
+
+
+class SwitchedTree(Tree):
+    """With all defects in it that can be switched on by the environment, and with parameters that it takes factors for."""
+
+    factors = Path(__file__).with_name("factors.patch")
+
+    def __init__(self, commit="HEAD", jobs=None):
+        super().__init__(commit, jobs, "switched")
+        self.base = {}      # texts of the files that take factors, before anything is planted
+        self.numbers = {}   # of the defects that are in it, by name
+        self.left = {}      # of an earlier hunt: file -> (text, time)
+
+    def plant(self, defects):
+        """Builds the program with what can be planted of `defects`, number -> Defect; what spoils the compilation is taken out
+        again. '' or the compiler's first complaint that names no defect."""
+        known = {n: (d.name, d.path.read_text(encoding="utf-8").partition("\n\n")[2]) for n, d in defects.items()}
+        while True:
+            files, planted, _ = switches.plan(known, self._clean_text)
+            self.numbers = {known[n][0]: n for n in planted}
+            if not planted:
+                return ""
+            self._write({**self.base, **files, switches.HEADER: switches.HEADER_TEXT})
+            if not (why := self.build()):
+                return ""
+            guilty = {int(n) for n in re.findall(r"furrow::planted\((\d+)\)", why)}
+            if not guilty & planted:
+                return why
+            known = {n: known[n] for n in known.keys() - guilty}
+
+    def prepare(self):
+        """As of any tree, but files keep their texts, so that what is planted again is not compiled again."""
+        before = {f: (self.folder / f).read_text(encoding="utf-8") for f in self._changed()}
+        times = {f: (self.folder / f).stat().st_mtime_ns for f in before}
+        super().prepare()
+        self.left = {f: (text, times[f]) for f, text in before.items()}
+        if not self.factors.exists():
+            return
+        if (done := _git(self.folder, "apply", str(self.factors))).returncode != 0:
+            raise GateError(f"{self.factors.name}: does not apply: {(done.stderr.strip().splitlines() or [''])[-1]}", 3)
+        self.base = {f: (self.folder / f).read_text(encoding="utf-8") for f in self._changed()}
+        _git(self.folder, "checkout", "-q", "--", ".")
+
+    def _changed(self):
+        shown = _git(self.folder, "status", "--porcelain", "--untracked-files=all") if (self.folder / ".git").exists() else None
+        names = [line[3:] for line in shown.stdout.splitlines()] if shown else []
+        return [n for n in names if n.endswith((".cpp", ".hpp")) and (self.folder / n).is_file()]
+
+    def _write(self, files):
+        for name, text in files.items():
+            place = self.folder / name
+            if not place.exists() or place.read_text(encoding="utf-8") != text:
+                place.write_text(text, encoding="utf-8")
+                if self.left.get(name, ("", 0))[0] == text:
+                    os.utime(place, ns=(self.left[name][1],) * 2)
+
+    def _clean_text(self, file):
+        if file in self.base:
+            return self.base[file]
+        shown = _git(self.folder, "show", f"{self.commit}:{file}")
+        return shown.stdout if shown.returncode == 0 else None

@@ -115,13 +115,15 @@ def complaint(words, folder, environment=None):
     done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True)
     if done.returncode == 0:
         return ""
-    lines = [line for line in (done.stdout + done.stderr).splitlines() if "error" in line.lower()]
-    return (lines or [f"'{' '.join(words)[:200]}' failed"])[0]
+    lines = (done.stdout + done.stderr).splitlines()
+    first = next((k for k, line in enumerate(lines) if "error" in line.lower()), None)
+    # a compiler shows the line of source below its complaint
+    return "\n".join(lines[first:first + 2]) if first is not None else f"'{' '.join(words)[:200]}' failed"
 
 
 def folds(header):
     """Whether a header holds numbers or functions that leave no line of code where they are used."""
-    return re.search(r"\bconstexpr (double|int|bool|auto|Real)\b", header.read_text(encoding="utf-8")) is not None
+    return header.exists() and re.search(r"\bconstexpr (double|int|bool|auto|Real)\b", header.read_text(encoding="utf-8")) is not None
 
 
 def names_in(text):

@@ -1,6 +1,10 @@
-"""The kill matrix as a page: planted defects against the cases that ran on them. Reads DIR/kills.json, writes DIR/page/."""
+"""Planted defects as pages: the kill matrix of one hunt (reads DIR/kills.json, writes DIR/page/), and in every report what is known
+of each defect since it was planted last (reads reference/kills.json)."""
 
+import datetime
+import hashlib
 import shutil
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import jinja2
@@ -9,6 +13,10 @@ from reports import numbers
 from reports.results import ReportError, read_json
 
 HERE = Path(__file__).resolve().parent
+RECORD = HERE.parent / "reference" / "kills.json"
+PATCHES = HERE.parent / "tests" / "defects"
+TIERS = ("smoke", "quick", "nightly", "full")
+ALIVE = ("changed", "survived")
 WORDS = {"killed": "killed", "changed": "change alone", "survived": "survived", "equivalent": "equivalent",
          "passed": "right, passed", "error": "error"}
 COLOURS = {"killed": "green", "changed": "yellow", "survived": "red", "equivalent": "", "passed": "green", "error": "red"}
@@ -41,3 +49,54 @@ def moved(x):
     if x is None:
         return ""
     return "no number" if x == "infinite" else f"{numbers.number(100.0 * x, 2)}\u202f%"
+
+
+@dataclass
+class Record:
+    """What is known of the defects that stand in the repository now."""
+    entries: list = field(default_factory=list)    # of reference/kills.json with name, stale (the patch is another now) and age
+    unknown: list = field(default_factory=list)    # names of patches that were never planted
+    fault: str = ""
+
+    def __bool__(self):
+        return bool(self.entries)
+
+    @property
+    def wrong(self):
+        """Entries of defects that can be caught, whose patch is the one that was planted."""
+        return [e for e in self.entries if e["state"] in ("killed", *ALIVE) and not e["stale"]]
+
+    @property
+    def right(self):
+        return [e for e in self.entries if e["state"] == "passed" or e["kinds"]]
+
+    def rate(self, tier):
+        """(killed by the truth, seen at all, planted, of them alive and not yet run) at this tier and those below it."""
+        def within(e):
+            return TIERS.index(e["tier"]) <= TIERS.index(tier)
+        killed = [e for e in self.wrong if e["state"] == "killed" and within(e)]
+        changed = [e for e in self.wrong if e["state"] == "changed" and within(e)]
+        waiting = [e for e in self.wrong if e["state"] in ALIVE and TIERS.index(e["tier"]) < TIERS.index(tier)]
+        return len(killed), len(killed) + len(changed), len(self.wrong), len(waiting)
+
+    @property
+    def alive(self):
+        return [e for e in self.wrong if e["state"] in ALIVE]
+
+
+def load(file=RECORD, folder=PATCHES, today=None):
+    """Record of a repository; empty without a file, with `fault` where it cannot be read."""
+    if not file.exists():
+        return Record()
+    try:
+        data = read_json(file)["defects"]
+        today = today or datetime.date.today()
+        hashes = {p.stem: hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(folder.glob("*.patch"))}
+        entries = [entry | {"name": name, "stale": hashes[name] != entry["hash"],
+                            "age": (today - datetime.date.fromisoformat(entry["date"])).days}
+                   for name, entry in data.items() if name in hashes]
+        order = {"error": 0, "survived": 1, "changed": 2, "killed": 3, "equivalent": 4, "passed": 5}
+        entries.sort(key=lambda e: (order[e["state"]], -TIERS.index(e["tier"]) if e["tier"] else 0, e["modules"], e["name"]))
+        return Record(entries, [n for n in hashes if n not in data])
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        return Record(fault=f"{file.name}: {error}")

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import jinja2
 
-from reports import changes, claims, numbers, results, summary, trends, validation, view
+from reports import changes, claims, kills, numbers, results, summary, trends, validation, view
 from reports.figures import history, ladder, lines, particles, snapshot
 
 HERE = Path(__file__).resolve().parent
@@ -191,6 +191,7 @@ def draw_all(figures, root, jobs):
 def _write(run, work, jobs):
     assign_pages(run.cases)
     since, course = changes.load(run.folder), trends.load(run.folder)
+    defects = kills.load()
     drawn = {case.page: figures_of(case, case.data.get("provenance") or run.provenance, since.curves.get(case.id))
              for case in run.cases}
     compared = validation.groups(run)
@@ -215,7 +216,7 @@ def _write(run, work, jobs):
         sparkline=trends.sparkline, trend_name=trends.name, trend_last=trends.last,
         is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run),
-              "compared": compared, "changes": since, "trends": course, "ledger": ledger}
+              "compared": compared, "changes": since, "trends": course, "ledger": ledger, "defects": defects}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
     if since:
         (work / "changes.html").write_text(environment.get_template("changes.html").render(
@@ -229,6 +230,10 @@ def _write(run, work, jobs):
     if ledger:
         (work / "claims.html").write_text(environment.get_template("claims.html").render(
             root="", claims=ledger, counts=claims.counts(ledger), **common), encoding="utf-8")
+    if defects:
+        (work / "defects.html").write_text(environment.get_template("defects.html").render(
+            root="", defect_tiers=kills.TIERS[:3], fates=kills.WORDS, fate_colours=kills.COLOURS, fate_moved=kills.moved, **common),
+            encoding="utf-8")
     page = environment.get_template("case.html")
     for i, case in enumerate(run.cases):
         convergence, series, pictures, own = drawn[case.page]

@@ -165,6 +165,7 @@ def project(tmp_path, monkeypatch):
     (tools / "cmake").chmod(0o755)
     monkeypatch.setenv("PATH", f"{tools}:/usr/bin:/bin")
     monkeypatch.setattr(scratch, "ROOT", home)
+    monkeypatch.setattr(scratch.SwitchedTree, "factors", tmp_path / "none")
     monkeypatch.setattr(command.baseline, "read_all", dict)
     folder = tmp_path / "patches"
     folder.mkdir()
