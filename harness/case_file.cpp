@@ -135,9 +135,13 @@ void read_ladder(const Parameters& at, MetricSpec& metric) {
   if (at.has("ladder"))
     metric.ladder = at.choice("ladder", {"error", "value"}) == "error" ? LadderKind::error : LadderKind::value;
   metric.observed_order_of = at.text_or("observed_order_of", "");
+  metric.limit_of = at.text_or("limit_of", "");
   metric.states = {LadderState::asymptotic};
+  if (metric.ladder && !metric.ladder_of().empty())
+    at.fail("ladder", "found a ladder on a metric that is read from another's, expected it on that other one");
+  if (!metric.limit_of.empty() && !metric.observed_order_of.empty())
+    at.fail("limit_of", "found a limit and an observed order in one metric, expected one of the two");
   if (metric.observed_order_of.empty()) return;
-  if (metric.ladder) at.fail("ladder", "found a ladder on an observed order, expected it on the metric whose order this is");
   if (metric.norm != Norm::value)
     at.fail("norm", fmt::format("found \"{}\", expected \"value\" for an observed order", metric.norm_words));
   if (metric.unit.dimension != dimension::none || metric.unit.factor != 1.0)
@@ -217,12 +221,14 @@ void check_metrics(const std::vector<Parameters>& blocks, const CaseSpec& spec) 
       blocks[i].fail("name", fmt::format("found \"{}\" twice in this case, expected a name of its own", metric.name));
     if (metric.ladder && spec.spacing.size() < 3 && spec.overrides.empty())
       blocks[i].fail("ladder", fmt::format("found a ladder of {} spacings, expected at least three", spec.spacing.size()));
-    if (metric.observed_order_of.empty()) continue;
+    if (metric.ladder_of().empty()) continue;
+    const char* key = metric.limit_of.empty() ? "observed_order_of" : "limit_of";
     const auto of = std::find_if(spec.metrics.begin(), spec.metrics.end(),
-                                 [&](const MetricSpec& m) { return m.name == metric.observed_order_of; });
+                                 [&](const MetricSpec& m) { return m.name == metric.ladder_of(); });
     if (of == spec.metrics.end() || !of->ladder)
-      blocks[i].fail("observed_order_of",
-                     fmt::format("found \"{}\", expected a metric of this case that has a ladder", metric.observed_order_of));
+      blocks[i].fail(key, fmt::format("found \"{}\", expected a metric of this case that has a ladder", metric.ladder_of()));
+    if (!metric.limit_of.empty() && (of->ladder != LadderKind::value || of->unit.symbol != metric.unit.symbol))
+      blocks[i].fail(key, fmt::format("found \"{}\", expected a metric with a ladder of values in the same unit", metric.limit_of));
   }
 }
 

@@ -35,6 +35,8 @@
 //   observed_order_of = "gradient_l2"           # instead of being measured: the order of that metric's ladder at this h/dx
 //   states = ["asymptotic", "plateau"]          # optional, with observed_order_of; the states in which the order may pass
 //                                               # (asymptotic, plateau, undetermined); default: asymptotic alone
+//   limit_of = "final_length"                   # instead of being measured: what that metric's ladder of values tends to. Where it
+//                                               # has no usable fit, the finest value with its numerical uncertainty on both sides
 //   when = { kernel = ["wendland_c2"] }         # optional; the metric is there for these parameter values only
 //   known_gap = { reason = "...", date = 2026-11-22, expires = 2027-05-22 }   # optional
 #pragma once
@@ -95,9 +97,12 @@ struct MetricSpec {
   std::string band_why;
   std::size_t spacing_index = 0, ratio_index = 0;   ///< the gated rung
   std::optional<LadderKind> ladder;
-  std::string observed_order_of;           ///< empty for a metric that the code measures
+  std::string observed_order_of, limit_of;   ///< both empty for a metric that the code measures
   std::vector<LadderState> states;         ///< in which an observed order may pass
   std::optional<KnownGap> known_gap;
+
+  /// The metric whose ladder this one is read from; empty where the code measures it.
+  const std::string& ladder_of() const { return observed_order_of.empty() ? limit_of : observed_order_of; }
 };
 
 struct CaseSpec {

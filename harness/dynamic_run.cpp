@@ -18,7 +18,7 @@ constexpr std::int64_t steps_between_good_states = 200;
 
 std::vector<HistoryColumn> standard_columns() {
   return {{"dt", "dt", "s", "length of the last step"},
-          {"limiter", "l", "1", "what limited it: 0 Courant, 1 viscous, 2 force, 3 end of run"},
+          {"limiter", "l", "1", "what limited it: 0 Courant, 1 viscous, 2 force, 3 end of run, 4 growth"},
           {"kinetic_energy", "E_k", "J", "kinetic energy; per metre of width in plane strain, as all energies"},
           {"elastic_energy", "E_e", "J", "recoverable energy of the stress state"},
           {"plastic_work", "E_p", "J", "stress work that is not recoverable"},

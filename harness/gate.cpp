@@ -79,9 +79,9 @@ class Judge {
     CaseVerdict result;
     result.metrics.resize(spec_.metrics.size());
     for (std::size_t i = 0; i < spec_.metrics.size(); ++i)
-      if (spec_.metrics[i].observed_order_of.empty()) result.metrics[i] = measured(spec_.metrics[i]);
+      if (spec_.metrics[i].ladder_of().empty()) result.metrics[i] = measured(spec_.metrics[i]);
     for (std::size_t i = 0; i < spec_.metrics.size(); ++i)
-      if (!spec_.metrics[i].observed_order_of.empty()) result.metrics[i] = observed_order(spec_.metrics[i], result.metrics);
+      if (!spec_.metrics[i].ladder_of().empty()) result.metrics[i] = read_from_ladder(spec_.metrics[i], result.metrics);
     sum_up(result);
     return result;
   }
@@ -138,38 +138,70 @@ class Judge {
     return result;
   }
 
-  MetricResult observed_order(const MetricSpec& metric, const std::vector<MetricResult>& measured) const {
+  MetricResult read_from_ladder(const MetricSpec& metric, const std::vector<MetricResult>& measured) const {
     MetricResult result;
     result.reference = metric.reference;
     result.standard_uncertainty = metric.standard_uncertainty;
     const auto of = std::find_if(spec_.metrics.begin(), spec_.metrics.end(),
-                                 [&](const MetricSpec& m) { return m.name == metric.observed_order_of; });
+                                 [&](const MetricSpec& m) { return m.name == metric.ladder_of(); });
     if (of == spec_.metrics.end()) {
-      result.reason = fmt::format("the order of {}, which is no metric of this case", metric.observed_order_of);
+      result.reason = fmt::format("read from the ladder of {}, which is no metric of this case", metric.ladder_of());
       return result;
     }
     if (spec_.spacing.size() < 3) {
       result.verdict = Verdict::skipped;
-      result.reason = "an order needs three spacings";
+      result.reason = "an order or a limit needs three spacings";
       return result;
     }
-    const std::vector<Ladder>& ladders = measured[static_cast<std::size_t>(of - spec_.metrics.begin())].ladders;
-    const auto ladder = std::find_if(ladders.begin(), ladders.end(), [&](const Ladder& l) {
+    const MetricResult& base = measured[static_cast<std::size_t>(of - spec_.metrics.begin())];
+    const auto ladder = std::find_if(base.ladders.begin(), base.ladders.end(), [&](const Ladder& l) {
       return l.smoothing_ratio == spec_.smoothing_ratio[metric.ratio_index];
     });
-    if (ladder == ladders.end()) {
-      result.reason = fmt::format("{} has no ladder at this h/dx", metric.observed_order_of);
+    if (ladder == base.ladders.end()) {
+      result.reason = fmt::format("{} has no ladder at this h/dx", metric.ladder_of());
       return result;
     }
     result.ladders = {*ladder};
-    result.value = result.error = ladder->order;
+    if (metric.limit_of.empty())
+      observed_order(metric, result);
+    else
+      limit(metric, base, result);
+    return result;
+  }
+
+  void observed_order(const MetricSpec& metric, MetricResult& result) const {
+    const Ladder& ladder = result.ladders.front();
+    result.value = result.error = ladder.order;
     gate(metric, result);
-    const bool usable = std::find(metric.states.begin(), metric.states.end(), ladder->state) != metric.states.end();
+    const bool usable = std::find(metric.states.begin(), metric.states.end(), ladder.state) != metric.states.end();
     if (metric.band && !usable) {
-      result.reason = fmt::format("the ladder is in the state {}, which gives no order that could pass", name(ladder->state));
+      result.reason = fmt::format("the ladder is in the state {}, which gives no order that could pass", name(ladder.state));
       if (result.verdict == Verdict::pass) result.verdict = Verdict::fail;
     }
-    return result;
+  }
+
+  /// The extrapolated value; without one, the end of the finest value's numerical uncertainty that lies further outside.
+  void limit(const MetricSpec& metric, const MetricResult& base, MetricResult& result) const {
+    const Ladder& ladder = result.ladders.front();
+    Number number;
+    number.reference = result.reference = metric.computed_reference ? base.reference : metric.reference;
+    result.standard_uncertainty = metric.computed_reference ? base.standard_uncertainty : metric.standard_uncertainty;
+    const auto set = [&](double value) {
+      number.value = value;
+      compare(metric, number);
+      result.value = number.value;
+      result.error = number.error;
+      gate(metric, result);
+    };
+    if (std::isfinite(ladder.extrapolated)) return set(ladder.extrapolated);
+    const double finest = ladder.value.empty() ? none : ladder.value.back();
+    const double uncertainty = std::abs(finest) * ladder.gci;
+    set(finest - uncertainty);
+    if (result.verdict == Verdict::pass || result.verdict == Verdict::reported) set(finest + uncertainty);
+    if (result.reason.empty())
+      result.reason = fmt::format("the ladder is in the state {} and has no limit: the finest value with its numerical uncertainty of "
+                                  "{:.2g} %",
+                                  name(ladder.state), 100.0 * ladder.gci);
   }
 
   void gate(const MetricSpec& metric, MetricResult& result) const {

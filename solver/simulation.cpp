@@ -31,7 +31,9 @@ void Simulation<Dim>::step(double end) {
   has_run(Module::simulation);
   Particles<Dim>& p = body.particles;
   const std::size_t n = p.size();
-  const StepLength length = step_length(body, compression_, control);
+  StepLength length = step_length(body, compression_, control);
+  const double grown = steps_ == 0 ? control.first * length.dt : control.growth * dt_;
+  if (!control.fixed && (steps_ == 0 || control.growth > 0.0) && grown < length.dt) length = {grown, StepLimiter::growth};
   const bool last = time_ + length.dt >= end;
   const double dt = last ? end - time_ : length.dt;
   limiter_ = last ? StepLimiter::end_of_run : length.limiter;

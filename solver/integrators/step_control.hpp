@@ -7,15 +7,17 @@
 namespace furrow {
 
 /// What set the length of a step.
-enum class StepLimiter { courant, viscous, force, end_of_run };
+enum class StepLimiter { courant, viscous, force, end_of_run, growth };
 constexpr std::string_view name_of(StepLimiter limiter) {
-  constexpr std::string_view names[] = {"courant", "viscous", "force", "end of run"};
+  constexpr std::string_view names[] = {"courant", "viscous", "force", "end of run", "growth"};
   return names[static_cast<int>(limiter)];
 }
 
 struct StepControl {
   double courant = 0.3;   ///< times h/c
   double force = 0.25;    ///< times sqrt(h/a)
+  double first = 1.0;     ///< the first step is this part of what the conditions allow: less than 1 where a run begins with an impact
+  double growth = 0.0;    ///< each step is at most so many times the one before it; 0 = no such limit
   double largest = 0.0;   ///< s; 0 = no such limit. Taken for every step where `fixed` is set
   bool fixed = false;
 };

@@ -55,7 +55,7 @@ struct JohnsonCook {
     const Tensor s_0 = deviator(state.stress), way = 2.0 * G * deviator(increment.strain);
     const double q_yield = intact * strength.flow_stress(state.plastic_strain, total_rate(increment), state.temperature).value;
     const StraightPath path = straight_path(s_0, way, form.root_of_j2 ? q_yield : HUGE_VAL);
-    const double x = form.root_of_j2 ? plastic_increment(state, path.q_trial, intact, increment)
+    const double x = form.root_of_j2 ? plastic_increment(state, path.q_trial, q_yield, intact, increment)
                                      : plastic_increment_without_root(path.q_trial, q_yield);
     const double q = std::max(0.0, path.q_trial - 3.0 * G * x);
     if (x > 0.0) {
@@ -84,14 +84,16 @@ struct JohnsonCook {
 
   /// Root x of g(x) = q_trial - 3 G x - intact sigma_y; 0 in the elastic range. Newton's method inside a bracket that every
   /// evaluation narrows; where Newton leaves the bracket or would crawl it is halved.
-  double plastic_increment(const MaterialState& state, double q_trial, double intact, const Increment& increment) const {
+  /// The yield stress at the total rate, q_yield, is above that without flow: a trial beyond it is plastic, and close to the root.
+  double plastic_increment(const MaterialState& state, double q_trial, double q_yield, double intact,
+                           const Increment& increment) const {
     const double G = shear_modulus, b = heating(state.density);
     const double fixed_rate = form.plastic_rate ? 0.0 : total_rate(increment);
     const auto sigma_y = [&](double x) {
       const double rate = form.plastic_rate ? x / increment.dt : fixed_rate;
       return strength.flow_stress(state.plastic_strain + x, rate, state.temperature + b * (q_trial - 3.0 * G * x) * x);
     };
-    const double excess = q_trial - intact * sigma_y(0.0).value;
+    const double excess = q_trial - (q_trial > q_yield ? q_yield : intact * sigma_y(0.0).value);
     if (!(excess > 0.0)) return 0.0;
 
     double low = 0.0, high = q_trial / (3.0 * G);   // g(low) > 0, g(high) <= 0

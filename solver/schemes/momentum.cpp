@@ -29,8 +29,10 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
     const auto& A = [&]() -> const auto& { if constexpr (Quadratic) return w.Q; else return w.A; }();
     if constexpr (Artificial)
       return reads(velocity, A, w.weight, p.density, p.sound_speed, w.R);
-    else
+    else if constexpr (Viscous)
       return reads(velocity, A, w.weight, p.density, p.sound_speed);
+    else
+      return reads(velocity, A, w.weight);
   }();
   for_each_particle(stencil, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
@@ -52,8 +54,8 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
     };
     LaneVector<Dim> a;
     Lanes stress_power{}, viscous_power{}, artificial_power{};
-    neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& v_j, const auto& A_j, const Lanes& weight_j, const Lanes& rho_j,
-                   const Lanes& c_j, const auto&... R_j) {
+    const auto with_pairs = [&](const Pairs<Dim>& pair, const LaneVector<Dim>& v_j, const auto& A_j, const Lanes& weight_j,
+                                const Lanes& rho_j, const Lanes& c_j, const auto&... R_j) {
       const LaneVector<Dim> v_ij = v_i - v_j;
       const LaneVector<Dim> from_stress = (prefactor * weight_j) * stress_term(pair, A_j);
       a += from_stress;
@@ -73,7 +75,13 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
         a += from_artificial;
         artificial_power += dot(from_artificial, v_ij);
       }
-    });
+    };
+    if constexpr (Viscous || Artificial)
+      neighbours(with_pairs);
+    else
+      neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& v_j, const auto& A_j, const Lanes& weight_j) {
+        with_pairs(pair, v_j, A_j, weight_j, Lanes{}, Lanes{});
+      });
     acceleration[i] = sum(a);
     power[i] = {-0.5 * sum(stress_power), -0.5 * sum(viscous_power), -0.5 * sum(artificial_power)};
   });

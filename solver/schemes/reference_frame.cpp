@@ -17,40 +17,78 @@ double reference_speed(const Matrix<Dim>& F, double c) {
   return c * std::sqrt((inverse * inverse.transpose()).cwiseAbs().rowwise().sum().maxCoeff());
 }
 
+namespace {
+
+/// Sum over the pairs of one particle of what springs and dampers do to it.
+template <int Dim>
+struct HourglassSum {
+  double zeta, h;
+  LaneVector<Dim> x_i, v_i;
+  LaneMatrix<Dim> G_i;
+  double rho_i, c_i, scale;   ///< scale = V_i/m_i
+  LaneVector<Dim> a{};
+  Lanes sprung{}, damped{};
+
+  /// `stretch(x_ij)`: delta_ij.x_ij
+  template <class K, class Stretch>
+  void add(const Pairs<Dim>& pair, const LaneVector<Dim>& x_j, const LaneVector<Dim>& v_j, const LaneMatrix<Dim>& G_j,
+           const Lanes& rho_j, const Lanes& c_j, const Lanes& V_j, Stretch&& stretch) {
+    const LaneVector<Dim> x_ij = x_i - x_j, v_ij = v_i - v_j;
+    const LaneVector<Dim> d = v_ij - broadcast(0.5) * ((G_i + G_j) * pair.x_ij);
+    const Lanes rho = 0.5 * (rho_i + rho_j), c = 0.5 * (c_i + c_j);
+    const Lanes W = furrow::scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
+    const Lanes weight = broadcast(-scale) * rho * c * W * V_j / (pair.r * pair.r * (dot(x_ij, x_ij) + 1e-300));
+    const Lanes spring = weight * stretch(x_ij, c), damper = zeta * h * weight * dot(d, x_ij);
+    const Lanes approach = dot(x_ij, v_ij);
+    const Lanes spring_in = pair.r > 1e-140 ? spring : Lanes{};   // not the padding with the particle itself
+    const Lanes damper_in = pair.r > 1e-140 ? damper : Lanes{};
+    a += (spring_in + damper_in) * x_ij;
+    sprung += spring_in * approach;
+    damped += damper_in * approach;
+  }
+};
+
+}  // namespace
+
 template <int Dim>
 void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p, std::span<const double> volume,
                          std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi,
                          double zeta, std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
   has_run(Module::hourglass);
-  const double h = reference.smoothing_length;
-  const auto read = reads(p.position, velocity, p.deformation_gradient, gradient_rate, p.density, p.sound_speed, volume);
-  for_each_particle(reference, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
-    const LaneVector<Dim> x_i = broadcast<Dim>(p.position[i]), v_i = broadcast<Dim>(velocity[i]);
-    const LaneMatrix<Dim> F_i = broadcast<Dim>(p.deformation_gradient[i]), G_i = broadcast<Dim>(gradient_rate[i]);
-    const Lanes half = broadcast(0.5);
-    LaneVector<Dim> a;
-    Lanes sprung{}, damped{};
-    neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& x_j, const LaneVector<Dim>& v_j, const LaneMatrix<Dim>& F_j,
-                   const LaneMatrix<Dim>& G_j, const Lanes& rho_j, const Lanes& c_j, const Lanes& V_j) {
-      const LaneVector<Dim> x_ij = x_i - x_j, v_ij = v_i - v_j;
-      const LaneVector<Dim> delta = x_ij - half * ((F_i + F_j) * pair.x_ij);
-      const LaneVector<Dim> d = v_ij - half * ((G_i + G_j) * pair.x_ij);
-      const Lanes rho = 0.5 * (p.density[i] + rho_j), c = 0.5 * (p.sound_speed[i] + c_j);
-      const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
-      const Lanes weight = broadcast(-volume[i] / p.mass[i]) * rho * c * W * V_j /
-                           (pair.r * pair.r * (dot(x_ij, x_ij) + 1e-300));
-      const Lanes spring = chi * weight * c * dot(delta, x_ij), damper = zeta * h * weight * dot(d, x_ij);
-      const Lanes approach = dot(x_ij, v_ij);
-      const Lanes spring_in = pair.r > 1e-140 ? spring : Lanes{};   // not the padding with the particle itself
-      const Lanes damper_in = pair.r > 1e-140 ? damper : Lanes{};
-      a += (spring_in + damper_in) * x_ij;
-      sprung += spring_in * approach;
-      damped += damper_in * approach;
+  const auto sum_of = [&](std::size_t i) {
+    return HourglassSum<Dim>{.zeta = zeta, .h = reference.smoothing_length, .x_i = broadcast<Dim>(p.position[i]),
+                             .v_i = broadcast<Dim>(velocity[i]), .G_i = broadcast<Dim>(gradient_rate[i]), .rho_i = p.density[i],
+                             .c_i = p.sound_speed[i], .scale = volume[i] / p.mass[i]};
+  };
+  const auto take = [&](std::size_t i, const HourglassSum<Dim>& s) {
+    acceleration[i] += sum(s.a);
+    power[i].artificial -= 0.5 * sum(s.sprung);
+    power[i].viscous -= 0.5 * sum(s.damped);
+  };
+  if (chi > 0.0) {
+    const auto read = reads(p.position, velocity, gradient_rate, p.density, p.sound_speed, volume, p.deformation_gradient);
+    for_each_particle(reference, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+      HourglassSum<Dim> s = sum_of(i);
+      const LaneMatrix<Dim> F_i = broadcast<Dim>(p.deformation_gradient[i]);
+      neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& x_j, const LaneVector<Dim>& v_j, const LaneMatrix<Dim>& G_j,
+                     const Lanes& rho_j, const Lanes& c_j, const Lanes& V_j, const LaneMatrix<Dim>& F_j) {
+        s.template add<K>(pair, x_j, v_j, G_j, rho_j, c_j, V_j, [&](const LaneVector<Dim>& x_ij, const Lanes& c) {
+          return chi * c * dot(x_ij - broadcast(0.5) * ((F_i + F_j) * pair.x_ij), x_ij);
+        });
+      });
+      take(i, s);
     });
-    acceleration[i] += sum(a);
-    power[i].artificial -= 0.5 * sum(sprung);
-    power[i].viscous -= 0.5 * sum(damped);
-  });
+  } else {   // dampers need no deformation gradient, a third of what springs read
+    const auto read = reads(p.position, velocity, gradient_rate, p.density, p.sound_speed, volume);
+    for_each_particle(reference, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
+      HourglassSum<Dim> s = sum_of(i);
+      neighbours([&](const Pairs<Dim>& pair, const LaneVector<Dim>& x_j, const LaneVector<Dim>& v_j, const LaneMatrix<Dim>& G_j,
+                     const Lanes& rho_j, const Lanes& c_j, const Lanes& V_j) {
+        s.template add<K>(pair, x_j, v_j, G_j, rho_j, c_j, V_j, [](const LaneVector<Dim>&, const Lanes&) { return Lanes{}; });
+      });
+      take(i, s);
+    });
+  }
 }
 
 #define FURROW_INSTANTIATE(Dim)                                                                                               \

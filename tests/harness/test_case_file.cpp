@@ -142,6 +142,14 @@ TEST_CASE("What a band or an order cannot be is refused", "[case_file]") {
   contains(sample.message(replaced(text, "band = [0.0, inf]", "band = [1.0, 0.0]")), "expected the lower end first, [0, 1]");
   contains(sample.message(replaced(text, "ladder = \"error\"\n", "")),
            "observed_order_of: found \"error\", expected a metric of this case that has a ladder");
+  const std::string limit = replaced(text, "observed_order_of", "limit_of");
+  contains(sample.message(limit), "limit_of: found \"error\", expected a metric with a ladder of values in the same unit");
+  contains(sample.message(replaced(limit, "limit_of = \"error\"", "limit_of = \"width\"")),
+           "limit_of: found \"width\", expected a metric of this case that has a ladder");
+  contains(sample.message(replaced(limit, "limit_of = \"error\"", "limit_of = \"error\"\nladder = \"value\"")),
+           "found a ladder on a metric that is read from another's");
+  contains(sample.message(replaced(limit, "limit_of = \"error\"", "limit_of = \"error\"\nobserved_order_of = \"error\"")),
+           "found a limit and an observed order in one metric");
   contains(sample.message(replaced(text, "value = [1, 4, 2]", "value = [1, 4]")),
            "at.spacing: found a number that is not in the case's resolution");
   contains(sample.message(replaced(text, "value = [1, 4, 2]", "value = [4, 2]")),

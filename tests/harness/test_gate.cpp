@@ -214,3 +214,33 @@ TEST_CASE("A metric that is missing on one rung only is an error too", "[gate]")
   rungs[1].measurements.clear();
   CHECK(judge(spec, rungs, today).verdict == Verdict::error);
 }
+
+TEST_CASE("the limit of a ladder of values is gated beside its finest value", "[gate]") {
+  const auto judged = [](const std::vector<double>& values, Band band) {
+    MetricSpec length = metric("length", Norm::relative, 10.0, {-0.5, 0.5});
+    length.ladder = LadderKind::value;
+    length.spacing_index = values.size() - 1;
+    MetricSpec limit = metric("length_limit", Norm::relative, 10.0, band);
+    limit.limit_of = "length";
+    CaseSpec spec = with({limit, length});
+    spec.smoothing_ratio = {1.2};
+    std::vector<Rung> rungs;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      spec.spacing.push_back(8e-3 / std::pow(2.0, static_cast<double>(i)));
+      rungs.push_back(one("length", {values[i], "mm", {}, {}}));
+      rungs.back().spacing_index = i;
+    }
+    return judge(spec, rungs, today).metrics[0];
+  };
+  // 10 + 2^-2i: second order, tends to 10
+  const MetricResult limit = judged({11.0, 10.25, 10.0625}, {-1e-3, 1e-3});
+  CHECK(limit.verdict == Verdict::pass);
+  CHECK(limit.value == Approx(10.0));
+  CHECK(judged({11.0, 10.25, 10.0625}, {0.005, 0.01}).verdict == Verdict::fail);   // the finest value alone would pass
+  // No limit: 10.1 +- three times the range
+  CHECK(judged({10.0, 10.2, 10.1}, {-0.06, 0.08}).verdict == Verdict::pass);
+  CHECK(judged({10.0, 10.2, 10.1}, {-0.06, 0.06}).verdict == Verdict::fail);
+  CHECK(judged({10.0, 10.2, 10.1}, {-0.04, 0.08}).verdict == Verdict::fail);
+  CHECK(judged({10.0, 10.2, 10.1}, {-0.04, 0.08}).reason.find("oscillatory") != std::string::npos);
+  CHECK(judged({10.0, nan_value, 10.1}, {-0.04, 0.08}).verdict == Verdict::error);
+}

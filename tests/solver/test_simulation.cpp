@@ -328,3 +328,22 @@ TEST_CASE("a checkpoint of other particles is refused", "[simulation]") {
   other.body.add({{1.0, 1.0}});
   CHECK_THROWS_AS(resume_from(checkpoint, other), std::out_of_range);
 }
+
+TEST_CASE("The first step and the growth of steps can be held back", "[simulation]") {
+  Simulation<2> free = struck_block(), held = struck_block();
+  held.control.first = 0.1;
+  held.control.growth = 1.05;
+  free.start();
+  held.start();
+  free.step(1.0);
+  held.step(1.0);
+  CHECK(held.dt() == Approx(0.1 * free.dt()).epsilon(1e-12));
+  CHECK(held.limiter() == StepLimiter::growth);
+  for (int k = 0; k < 3; ++k) {
+    const double before = held.dt();
+    held.step(1.0);
+    CHECK(held.dt() == Approx(1.05 * before).epsilon(1e-12));
+  }
+  for (int k = 0; k < 100; ++k) held.step(1.0);
+  CHECK(held.limiter() != StepLimiter::growth);   // what the conditions allow is reached, and kept
+}

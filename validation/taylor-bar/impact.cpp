@@ -44,7 +44,11 @@ Outcome collide(Run& run, const Impact& impact) {
     planes.push_back({Vector<3>::Zero(), Vector<3>::UnitZ()});
   }
   body.images = Images<3>(planes);
-  if (impact.scheme.frame == Frame::reference) simulation.control.courant = 0.5;   // no pair viscosity that would limit it
+  // Corrected sums see no wave number above 1.17/h, which allows a step of 1.7 h/c without pair viscosity; an eighth is kept
+  // from that. The impact is a jump of velocity: with a long first step the energy that it dissipates is off by a percent.
+  if (impact.scheme.frame == Frame::reference) simulation.control.courant = 1.5;
+  simulation.control.first = 0.1;
+  simulation.control.growth = 1.02;
   const double size = impact.rod.length + impact.rod.diameter;
   simulation.watch.low = Vector<3>::Constant(-3.0 * size);
   simulation.watch.high = Vector<3>::Constant(3.0 * size);
