@@ -120,8 +120,8 @@ def figures_of(case, provenance, accepted=None):
         return path + ".svg"
 
     convergence, shown = {}, []
-    by_source = sorted((m for m, _ in case.metrics), key=lambda m: any(s["order"] == m["value"] for s in ladder.ladders_of(m)))
-    for metric in by_source:   # an observed order carries the ladder of the metric whose order it is: that is drawn once
+    by_source = sorted((m for m, _ in case.metrics), key=lambda m: any(m["value"] in (s["order"], s["extrapolated"]) for s in ladder.ladders_of(m)))
+    for metric in by_source:   # an observed order or a limit carries the ladder that it is read from: that is drawn once
         steps = [s for s in ladder.ladders_of(metric) if s not in shown]
         if steps:
             shown += steps
