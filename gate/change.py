@@ -12,6 +12,9 @@ TOWARD, AWAY, UNDECIDED = "toward", "away", "undecided"
 SPREADS = 3.0
 # What round-off alone may leave: a thousand units in the last place, as for observed orders.
 ROUND_OFF = 1000.0 * sys.float_info.epsilon
+# Nor does a move matter of which a million would not cross the band, or not double the number where there is no band: another start
+# of an iteration that ends at the same root.
+SHARE = 1e-6
 # A reference's uncertainty covers what lies within two standard uncertainties of it.
 COVERAGE = 2.0
 
@@ -42,6 +45,14 @@ def allowance(value, reference, unit, spread):
     return max(SPREADS * (spread or 0.0), ROUND_OFF * scale)
 
 
+def _share(accepted, norm):
+    """The part of a metric's band that no gate could ever see, as a number of the metric."""
+    reference = abs(accepted.reference or 0.0)
+    if accepted.band is None or not all(isinstance(end, (int, float)) and math.isfinite(end) for end in accepted.band):
+        return SHARE * max(reference, abs(accepted.value))
+    return SHARE * (accepted.band[1] - accepted.band[0]) * (reference if norm.split()[-1:] == ["relative"] else 1.0)
+
+
 def truth_of(reference, norm):
     """The number that a metric would have without any error: its reference; zero where it is itself the norm of an error and no
     reference is stated; None where nobody says."""
@@ -56,7 +67,7 @@ def change(value, accepted, norm, reference, uncertainty):
     finite: a gate asks isfinite first."""
     if not (math.isfinite(value) and math.isfinite(accepted.value)):
         raise ValueError("a change of numbers that are not finite")
-    allowed = allowance(accepted.value, accepted.reference, accepted.unit, accepted.spread)
+    allowed = max(allowance(accepted.value, accepted.reference, accepted.unit, accepted.spread), _share(accepted, norm))
     measured = accepted.spread is not None
     new_truth, old_truth = truth_of(reference, norm), truth_of(accepted.reference, norm)
     if not _same_truth(new_truth, old_truth, accepted.reference_spread):

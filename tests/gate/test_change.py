@@ -9,8 +9,8 @@ from gate.change import AWAY, BITWISE, MOVED, ROUND_OFF, TOWARD, UNDECIDED, WITH
 from tests.gate.made import accepted
 
 
-def judged(new, old=1.0, norm="absolute", reference=0.0, uncertainty=0.0, old_reference=None, spread=0.0, unit="1"):
-    before = accepted(old, reference if old_reference is None else old_reference, spread, unit)
+def judged(new, old=1.0, norm="absolute", reference=0.0, uncertainty=0.0, old_reference=None, spread=0.0, unit="1", band=(0.0, 1e-12)):
+    before = accepted(old, reference if old_reference is None else old_reference, spread, unit, band=band)
     return change(new, before, norm, reference, uncertainty)
 
 
@@ -23,6 +23,15 @@ def test_equal_bits_and_only_they_are_bitwise():
 @pytest.mark.parametrize("moved, kind", [(2.9, WITHIN), (-2.9, WITHIN), (3.1, MOVED), (-3.1, MOVED)])
 def test_three_measured_spreads_are_within(moved, kind):
     assert judged(1.0 + 0.01 * moved, spread=0.01).kind == kind
+
+
+@pytest.mark.parametrize("norm, width", [("absolute", 4.0), ("relative", 4.0 / 3.0)])
+def test_a_millionth_of_the_band_is_within(norm, width):
+    band = [-0.5 * width, 0.5 * width]
+    assert judged(3.0 + 3.9e-6, 3.0, norm, 3.0, band=band).kind == WITHIN
+    assert judged(3.0 + 4.1e-6, 3.0, norm, 3.0, band=band).kind == MOVED
+    assert judged(3.0 + 3.9e-6, 3.0, norm, 3.0, band=[0.0, math.inf]).kind == MOVED   # a millionth of 3
+    assert judged(3.0 + 2.9e-6, 3.0, norm, 3.0, band=None).kind == WITHIN
 
 
 def test_without_measured_noise_round_off_alone_is_within():
