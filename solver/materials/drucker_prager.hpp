@@ -48,12 +48,11 @@ struct DruckerPrager {
                                                                   : drift_corrected(by_rate(before, increment.strain));
     state.stress = next.s + next.I1 / 3.0 * Tensor::Identity();
 
-    // What is not elastic in the increment is plastic, by whichever way the stress was found.
-    const Tensor change = state.stress - before;
-    const Tensor plastic_deviator = deviator(increment.strain) - deviator(change) / (2.0 * shear_modulus);
-    const double plastic_volume = increment.strain.trace() - change.trace() / (3.0 * bulk_modulus);
     const double middle_density = state.density * std::exp(0.5 * increment.strain.trace());
-    if (next.plastic) {
+    if (next.plastic) {   // what is not elastic in the increment, by whichever way the stress was found
+      const Tensor change = state.stress - before;
+      const Tensor plastic_deviator = deviator(increment.strain) - deviator(change) / (2.0 * shear_modulus);
+      const double plastic_volume = increment.strain.trace() - change.trace() / (3.0 * bulk_modulus);
       state.plastic_strain += std::sqrt(2.0 / 3.0) * plastic_deviator.norm();
       state.plastic_work += (double_contraction(next.s, plastic_deviator) + next.I1 / 3.0 * plastic_volume) / state.density;
     }

@@ -40,14 +40,37 @@ Tensor embed(const Matrix<Dim>& a) {
 /// Rotation exp(W) of a skew tensor W (rad), orthogonal to round-off (Rodrigues). A stress that turns with constant spin w
 /// for a time dt is exp(w dt) s exp(w dt)^T: the Jaumann rate without any error of its own.
 inline Tensor rotation(const Tensor& W) {
-  const double angle = std::sqrt(0.5 * W.squaredNorm());
-  if (angle == 0.0) return Tensor::Identity();
-  const double a = std::sin(angle) / angle;
-  const double b = 0.5 * std::pow(std::sin(0.5 * angle) / (0.5 * angle), 2);
+  const double x2 = 0.5 * W.squaredNorm();   // angle squared
+  if (x2 == 0.0) return Tensor::Identity();
+  double a, b;   // sin x / x, (1 - cos x)/x^2
+  if (x2 < 0.01) {   // their series, to round-off: a step turns by little
+    a = 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0)));
+    b = 0.5 * (1.0 - x2 / 12.0 * (1.0 - x2 / 30.0 * (1.0 - x2 / 56.0 * (1.0 - x2 / 90.0))));
+  } else {
+    const double x = std::sqrt(x2), s = std::sin(0.5 * x) / (0.5 * x);
+    a = std::sin(x) / x;
+    b = 0.5 * s * s;
+  }
+  if (W(0, 2) == 0.0 && W(1, 2) == 0.0) {   // in the plane
+    const double c = 1.0 - b * x2, s = a * W(1, 0);
+    return (Tensor() << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0).finished();
+  }
   return Tensor::Identity() + a * W + b * W * W;
 }
 
 /// R a R^T.
-inline Tensor rotated(const Tensor& a, const Tensor& R) { return R * a * R.transpose(); }
+inline Tensor rotated(const Tensor& a, const Tensor& R) {
+  const auto plane = [](const Tensor& t) { return t(0, 2) == 0.0 && t(1, 2) == 0.0 && t(2, 0) == 0.0 && t(2, 1) == 0.0; };
+  if (!plane(R) || !plane(a)) return R * a * R.transpose();
+  const double b00 = R(0, 0) * a(0, 0) + R(0, 1) * a(1, 0), b01 = R(0, 0) * a(0, 1) + R(0, 1) * a(1, 1);
+  const double b10 = R(1, 0) * a(0, 0) + R(1, 1) * a(1, 0), b11 = R(1, 0) * a(0, 1) + R(1, 1) * a(1, 1);
+  Tensor turned = Tensor::Zero();
+  turned(0, 0) = b00 * R(0, 0) + b01 * R(0, 1);
+  turned(0, 1) = b00 * R(1, 0) + b01 * R(1, 1);
+  turned(1, 0) = b10 * R(0, 0) + b11 * R(0, 1);
+  turned(1, 1) = b10 * R(1, 0) + b11 * R(1, 1);
+  turned(2, 2) = R(2, 2) * a(2, 2) * R(2, 2);
+  return turned;
+}
 
 }  // namespace furrow

@@ -66,6 +66,20 @@ TEST_CASE("a rotation turns about its axis in the right sense", "[tensor]") {
   CHECK((rotation(3.0 * W) - rotation(W) * rotation(2.0 * W)).norm() < 1e-15);
 }
 
+TEST_CASE("a rotation in the plane is the general one", "[tensor]") {
+  const Tensor s = (Tensor() << 1, 2, 0, -3, 4, 0, 0, 0, 6).finished();   // no need to be symmetric
+  for (const double angle : {1e-12, 1e-3, 0.0999, 0.1001, 2.0}) {
+    INFO("angle " << angle);
+    const Tensor R = rotation(cross(0.0, 0.0, angle));
+    const Tensor expected =
+        (Tensor() << std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1).finished();
+    CHECK((R - expected).norm() < 1e-15);
+    CHECK((rotated(s, R) - expected * s * expected.transpose()).norm() < 1e-14);
+    // Out of the plane, a hair's breadth from it.
+    CHECK((rotation(cross(1e-14, 0.0, angle)) - expected).norm() < 1e-13);
+  }
+}
+
 TEST_CASE("a small rotation is the Jaumann rate", "[tensor]") {
   // d/dt of s under spin w is w s - s w (paper Eq. 11 in matrix form); central difference, error t^2/6.
   Tensor s;
