@@ -99,7 +99,8 @@ def test_fates(tmp_path):
     assert kills.fate(one, [kill("smoke", ""), kill("quick")], tiers, "c").tier == "quick"
     assert kills.fate(one, [kill("smoke", "change"), kill("quick", "change")], tiers, "c").state == "changed"
     assert kills.fate(one, [kill("smoke", "", None)], tiers, "c").state == "survived"
-    assert kills.fate(one, [], tiers, "c").state == "error"
+    assert kills.fate(one, [], tiers, "c").state == "survived"
+    assert kills.fate(one, [], (*tiers, "nightly"), "c").state == "error"
     equivalent = defect(tmp_path, HEAD.replace("Subtle: no", "Subtle: no\nEquivalent: nobody reads it"), "equivalent")
     assert kills.fate(equivalent, [kill("smoke", "", None)], tiers, "c").state == "equivalent"
     assert kills.fate(equivalent, [kill("smoke", "", 0.1)], tiers, "c").state == "error"

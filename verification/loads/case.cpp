@@ -11,6 +11,7 @@ Family loads_family() {
   family.add("pushed_block", loads_cases::pushed_block);
   family.add("sliding_block", loads_cases::sliding_block);
   family.add("struck_block", loads_cases::struck_block);
+  family.add("held_block", loads_cases::held_block);
   return family;
 }
 

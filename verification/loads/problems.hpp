@@ -9,6 +9,7 @@ Problem step_length(const Parameters& input);
 Problem pushed_block(const Parameters& input);
 Problem sliding_block(const Parameters& input);
 Problem struck_block(const Parameters& input);
+Problem held_block(const Parameters& input);
 
 using elastodynamic_cases::block;
 using elastodynamic_cases::elastic_body;

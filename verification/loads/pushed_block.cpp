@@ -1,4 +1,5 @@
-// A free block under a force that all its particles share: momentum is force times time, and all work goes into motion.
+// A block that is pushed as a whole, by a force that does not change or by a hand that moves it as such a force would: momentum is
+// force times time, and all work goes into motion.
 #include "verification/loads/problems.hpp"
 
 namespace furrow::loads_cases {
@@ -7,7 +8,7 @@ Problem pushed_block(const Parameters& input) {
   const LinearElastic material = read_elastic(input);
   const int n = static_cast<int>(input.integer("cells", 4, 100));
   const double stress = input.quantity("stress", dimension::stress, range::positive);
-  const std::string load = input.choice("load", {"applied", "held"});
+  const std::string load = input.choice("load", {"applied", "held", "prescribed"});
   const double passes = input.number("passes", range::positive);
   const Scheme scheme = read_scheme(input);
 
@@ -23,13 +24,21 @@ Problem pushed_block(const Parameters& input) {
     if (load == "applied") simulation.body.loads.forces.push_back({"pull", all, [F](double) { return F; }});
     if (load == "held") simulation.body.loads.held = {all, std::vector<Vector<2>>(all.size(), F / static_cast<double>(n * n))};
 
+    const Vector<2> a = F / (material.reference_density * L * L);
+    if (load == "prescribed")
+      simulation.body.loads.motions.push_back({"hand", all, [a](double t) { return Vector<2>(t * a); }});
     DynamicRun<2> dynamic(run, simulation);
     dynamic.until(passes * L / c, 200, 2);
     exercise(run, scheme);
-    run.exercises(load == "applied" ? "boundaries/applied_force" : "boundaries/held_forces");
+    run.exercises(load == "applied" ? "boundaries/applied_force" : load == "held" ? "boundaries/held_forces" : "boundaries/prescribed_motion");
 
     const Vector<2> P = simulation.momentum(), given = simulation.time() * F;
     run.measure("momentum", (P - given).norm() / given.norm());
+    const Particles<2>& p = simulation.body.particles;
+    const Vector<2> way = 0.5 * simulation.time() * simulation.time() * a;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) worst = std::max(worst, (p.position[i] - p.reference_position[i] - way).norm());
+    run.measure("displacement", worst / way.norm());
     measure_energy(run, dynamic);
   };
 }

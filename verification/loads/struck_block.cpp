@@ -56,6 +56,15 @@ Problem struck_block(const Parameters& input) {
                   [&](const Checkpoint& checkpoint) { load_stiff(checkpoint, coupled); });
     dynamic.probe({"energy_error", "dE", "J", "energy of both bodies less what came from outside"},
                   [&](const Simulation<2>&) { return coupled.energy_error(); });
+    // Virtual work: forces are shared among nodes as the velocity of the surface is read from them.
+    dynamic.probe({"power_given", "P", "W", "power of contact on the outline, by its surface"},
+                  [&](const Simulation<2>&) { return -coupled.contact.last().surface_power; });
+    dynamic.probe({"power_taken", "P_n", "W", "power of contact on the outline, by its nodes"}, [&](const Simulation<2>&) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < coupled.outline().size(); ++k)
+        sum += coupled.node_forces()[k].dot(coupled.outline().velocity[k]);
+      return sum;
+    });
     const Vector<2> before = static_cast<double>(n * n) * soft_material.reference_density * dx * dx * Vector<2>(0.4 * v_0, -v_0);
     const double energy = 0.5 * before.norm() * v_0 * std::sqrt(1.16);
     dynamic.until(passes * n * dx / c, 200, 2);
@@ -71,8 +80,18 @@ Problem struck_block(const Parameters& input) {
     run.measure("reaction", (I.soil + I.contact + I.pending).norm() / I.soil.norm());
     run.measure("rebound", P_soft[1] / -before[1]);
     run.measure("sub_steps", static_cast<double>(coupled.sub_steps()) / static_cast<double>(coupled.soft.steps()));
-    double worst = 0.0;
+    double worst = 0.0, gap = 0.0, largest = 0.0;
+    const auto &given = dynamic.column("power_given"), &taken = dynamic.column("power_taken");
     for (const double e : dynamic.column("energy_error")) worst = std::max(worst, std::abs(e));
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      gap = std::max(gap, std::abs(given[k] - taken[k]));
+      largest = std::max(largest, std::abs(given[k]));
+    }
+    double apart = 0.0;
+    for (std::size_t k = 0; k < coupled.surface.ids.size(); ++k)
+      apart = std::max(apart, (coupled.outline().velocity[k] - tool.particles.velocity[tool.index_of(coupled.surface.ids[k])]).norm());
+    run.measure("outline", apart / v_0);
+    run.measure("power", gap / largest);
     run.measure("energy_error", worst / energy);
   };
 }
