@@ -232,6 +232,61 @@ void check_metrics(const std::vector<Parameters>& blocks, const CaseSpec& spec) 
   }
 }
 
+/// Metrics that cases of a file share, by the name of their set.
+using MetricSets = std::map<std::string, std::vector<Parameters>>;
+
+MetricSets read_metric_sets(const Parameters& root) {
+  MetricSets sets;
+  if (!root.has("metric-set")) return sets;
+  const Parameters table = root.table("metric-set");
+  const std::vector<Parameters> cases = root.tables("case");
+  for (const std::string& name : table.keys()) {
+    const bool named = std::any_of(cases.begin(), cases.end(), [&](const Parameters& block) {
+      if (!block.has("metric_sets")) return false;
+      const std::vector<std::string> of = block.texts("metric_sets");
+      return std::find(of.begin(), of.end(), name) != of.end();
+    });
+    if (!named) table.fail(name, "found a set of metrics that no case names, expected it among the metric_sets of one");
+    sets[name] = table.tables(name);
+    std::set<std::string> metrics;
+    for (const Parameters& metric : sets[name])
+      if (!metrics.insert(metric.text("name")).second)
+        metric.fail("name", fmt::format("found \"{}\" twice in this set, expected a name of its own", metric.text("name")));
+  }
+  return sets;
+}
+
+struct MetricBlock {
+  Parameters at;
+  bool shared;   ///< from a set
+};
+
+/// Metrics of the sets that a case names, in their order, then its own. Of one name, a later set's and the case's own stand in
+/// the place of an earlier set's.
+std::vector<MetricBlock> metric_blocks(const Parameters& at, const MetricSets& sets) {
+  std::vector<MetricBlock> blocks;
+  const auto put = [&](const Parameters& metric, bool shared) {
+    const std::string name = metric.text("name");
+    const auto same = std::find_if(blocks.begin(), blocks.end(),
+                                   [&](const MetricBlock& b) { return b.shared && b.at.text("name") == name; });
+    if (same == blocks.end()) blocks.push_back({metric, shared});
+    else *same = {metric, shared};
+  };
+  if (at.has("metric_sets"))
+    for (const std::string& name : at.texts("metric_sets")) {
+      const auto set = sets.find(name);
+      if (set == sets.end()) {
+        std::vector<std::string> known;
+        for (const auto& [key, metrics] : sets) known.push_back(key);
+        at.fail("metric_sets", fmt::format("found \"{}\", expected a [[metric-set.NAME]] of this file: {}", name,
+                                           known.empty() ? "there is none" : fmt::format("{}", fmt::join(known, ", "))));
+      }
+      for (const Parameters& metric : set->second) put(metric, true);
+    }
+  for (const Parameters& metric : at.tables("metric")) put(metric, false);
+  return blocks;
+}
+
 using Combination = std::map<std::string, std::size_t>;   // sweep key -> index of its value
 
 std::vector<Combination> combinations(const Parameters& at) {
@@ -253,7 +308,7 @@ std::vector<Combination> combinations(const Parameters& at) {
 }
 
 CaseSpec read_instance(const Parameters& block, const Combination& combination, const Family& family,
-                       const Bibliography& bibliography, const Overrides& overrides) {
+                       const Bibliography& bibliography, const MetricSets& sets, const Overrides& overrides) {
   Parameters at = block.copy();
   CaseSpec spec;
   spec.family = family.name();
@@ -305,7 +360,9 @@ CaseSpec read_instance(const Parameters& block, const Combination& combination, 
 
   const Parameters parameters = at.table_or_empty("parameters");
   std::vector<Parameters> blocks;
-  for (const Parameters& metric : at.tables("metric")) {
+  std::string shared;
+  for (const auto& [metric, from_set] : metric_blocks(at, sets)) {
+    if (from_set) shared += metric.json();
     const bool applicable = applies(metric, parameters);
     MetricSpec read = read_metric(metric, bibliography, spec);
     if (!applicable) continue;
@@ -329,7 +386,7 @@ CaseSpec read_instance(const Parameters& block, const Combination& combination, 
   at.check_all_used();
   parameters.check_all_used();
   spec.parameters_json = parameters.json();
-  spec.fingerprint = fingerprint(at.json() + parameters.dependencies());
+  spec.fingerprint = fingerprint(at.json() + shared + parameters.dependencies());
   return spec;
 }
 
@@ -358,21 +415,24 @@ std::vector<CaseSpec> read_case_file(const std::filesystem::path& file, const st
   Bibliography sources = bibliography;
   if (root.has("sources")) read_sources(root.table("sources"), sources);
 
+  const MetricSets sets = read_metric_sets(root);
   std::vector<CaseSpec> specs;
   for (const Parameters& block : root.tables("case"))
     for (const Combination& combination : combinations(block)) {
-      CaseSpec spec = read_instance(block, combination, of, sources, overrides);
+      CaseSpec spec = read_instance(block, combination, of, sources, sets, overrides);
       spec.file = file;
       if (std::any_of(specs.begin(), specs.end(), [&](const CaseSpec& s) { return s.id == spec.id; }))
         block.fail("name", fmt::format("found a second case {}, expected a name of its own", spec.id));
       specs.push_back(std::move(spec));
     }
   if (specs.empty()) root.fail("case", "found no case, expected at least one [[case]]");
+  for (const auto& [name, metrics] : sets)
+    for (const Parameters& metric : metrics) metric.check_all_used();
   root.table_or_empty("sources");
   for (const std::string& key : root.keys())
-    if (key != "family" && key != "case" && key != "sources") {
-      const std::string nearest = nearest_word(key, {"family", "case", "sources"});
-      root.fail(key, fmt::format("unknown key{}; known here: family, case, sources",
+    if (key != "family" && key != "case" && key != "sources" && key != "metric-set") {
+      const std::string nearest = nearest_word(key, {"family", "case", "sources", "metric-set"});
+      root.fail(key, fmt::format("unknown key{}; known here: family, case, sources, metric-set",
                                  nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
     }
   return specs;

@@ -17,6 +17,10 @@
 //   sweep = { kernel = ["cubic_spline"], dimension = [1, 2, 3] }    # optional; an instance a combination of parameters
 //   parameters = { ... }                        # what the problem asks for
 //   resolution = { spacing = { value = [4, 2, 1], unit = "mm" }, h_over_dx = [1.2, 1.5] }   # optional; a run a pair
+//   metric_sets = ["conservation"]              # optional; metrics that several cases share, before the case's own. Of one name,
+//                                               # a later set's and the case's own stand in the place of an earlier set's
+//
+//   [[metric-set.conservation]]                 # one metric of a set, with the keys of [[case.metric]]
 //
 //   [[case.metric]]
 //   name = "unit_integral"; symbol = "int W dV"; unit = "1"; description = "..."

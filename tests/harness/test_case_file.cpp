@@ -182,3 +182,52 @@ TEST_CASE("A known gap needs a day, a later day and a cause", "[case_file]") {
   CHECK(with_gap("known_gap = { reason = \"r\", date = \"2026-11-22\", expires = 2027-05-22 }\n")
             .find("expected a date without quotes") != std::string::npos);
 }
+
+namespace {
+
+std::string metric_block(const std::string& header, const std::string& name, const std::string& rest) {
+  return header + "\nname = \"" + name + "\"\nsymbol = \"x\"\nunit = \"1\"\nclass = \"exact\"\nreference = { source = \"book\" }\n"
+         "norm = \"value\"\n" + rest + "\n";
+}
+const std::string gated = "band = [0.0, 1.0]\nband_why = \"b\"", reported = "reported = true";
+
+std::string sharing_case(const std::string& name, const std::string& sets) {
+  return "[[case]]\nname = \"" + name + "\"\nproblem = \"slab\"\ntitle = \"t\"\nwhy = \"w\"\ndescription = \"d\"\ntier = \"quick\"\n"
+         "metric_sets = " + sets + "\nparameters = { kernel = \"cubic_spline\", dimension = 2 }\n";
+}
+
+}  // namespace
+
+TEST_CASE("Cases share sets of metrics; a later set's and the case's own replace an earlier one's of the same name", "[case_file]") {
+  Sample sample;
+  const std::string sets = metric_block("[[metric-set.all]]", "one", gated) + metric_block("[[metric-set.all]]", "two", gated) +
+                           metric_block("[[metric-set.mild]]", "two", reported);
+  const std::string file = "family = \"slab\"\n" + sets + sharing_case("a", R"(["all"])") + sharing_case("b", R"(["all", "mild"])") +
+                           sharing_case("c", R"(["all"])") + metric_block("[[case.metric]]", "one", reported) +
+                           metric_block("[[case.metric]]", "three", gated);
+  const std::vector<CaseSpec> cases = sample.read(file);
+  REQUIRE(cases.size() == 3);
+  const auto words = [](const CaseSpec& spec) {
+    std::string text;
+    for (const MetricSpec& metric : spec.metrics) text += metric.name + (metric.band ? " gated, " : " reported, ");
+    return text;
+  };
+  CHECK(words(cases[0]) == "one gated, two gated, ");
+  CHECK(words(cases[1]) == "one gated, two reported, ");
+  CHECK(words(cases[2]) == "one reported, two gated, three gated, ");
+  // A set is an input of the cases that name it.
+  const std::string wider = replaced(file, "[0.0, 1.0]", "[0.0, 2.0]");
+  CHECK(sample.read(wider)[0].fingerprint != cases[0].fingerprint);
+}
+
+TEST_CASE("Sets of metrics that are not there, that no case names or that name a metric twice are refused", "[case_file]") {
+  Sample sample;
+  const std::string set = metric_block("[[metric-set.all]]", "one", gated), head = "family = \"slab\"\n" + set;
+  CHECK(sample.message(head + sharing_case("a", R"(["al"])")).find("no case names") != std::string::npos);
+  CHECK(sample.message(head + sharing_case("a", R"(["all", "rest"])")).find("found \"rest\", expected a [[metric-set.NAME]]") !=
+        std::string::npos);
+  CHECK(sample.message(head + set + sharing_case("a", R"(["all"])")).find("found \"one\" twice in this set") != std::string::npos);
+  CHECK(sample.message(replaced(head, "norm", "nrom") + sharing_case("a", R"(["all"])")).find("norm") != std::string::npos);
+  CHECK(sample.message(replaced(head, "symbol", "extra = 1\nsymbol") + sharing_case("a", R"(["all"])")).find("extra") !=
+        std::string::npos);
+}
