@@ -8,7 +8,7 @@ import shutil
 import time
 from pathlib import Path
 
-from defects import kills, order, patches, record, sensitivity
+from defects import kills, order, patches, record, scratch, sensitivity
 from defects.scratch import SwitchedTree, Tree
 from gate import baseline
 from gate.command import exit_code
@@ -19,6 +19,7 @@ from reports import results
 from reports.numbers import number
 
 OUT = ROOT / "runs" / "defects"
+TREES = scratch.ROOT / "build"   # the scratch trees lie there: one hunt at a time
 WORDS = {"killed": "killed", "changed": "seen by its change alone", "survived": "SURVIVED", "equivalent": "equivalent",
          "passed": "passed", "error": "ERROR"}
 
@@ -165,7 +166,9 @@ class Hunt:
         """What these cases see of the defect that is planted."""
         folder = self.out / "spoilt"
         shutil.rmtree(folder, ignore_errors=True)
-        tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()], **environment)
+        code = tree.run(["run", *(c.id for c in cases), "--out", str(folder.resolve()), *self.words()], **environment)
+        if code not in (0, 1, 3):   # nothing was run: that is no kill
+            raise GateError(f"the program of {tree.folder} ended with {code}: '{tree.program} run {cases[0].id}' shows why", 3)
         ran = {c.id: c for c in results.load(folder).cases} if folder.exists() else {}
         found = [kills.seen(c, ran.get(c.id), tier, self.noise.get(c.id)) for c in cases]
         shutil.rmtree(folder, ignore_errors=True)
@@ -182,7 +185,7 @@ def kept(path, defect, commit):
 
 
 def hunt(arguments, wanted):
-    with locked(arguments.out, "defects"):
+    with locked(arguments.out, "defects"), locked(TREES, "defects"):
         state = Hunt(arguments)
         fates = arguments.out / "fates"
         if not arguments.resume:
@@ -212,7 +215,7 @@ def hunt(arguments, wanted):
 
 
 def sensitive(arguments):
-    with locked(arguments.out, "defects"):
+    with locked(arguments.out, "defects"), locked(TREES, "defects"):
         state = Hunt(arguments)
         state.prepare(state.all)
         found = sensitivity.seek(state, arguments.sensitivity, lambda t: print(sensitivity.line(t), flush=True))

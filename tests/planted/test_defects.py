@@ -142,7 +142,9 @@ sys.path.insert(0, {root!r})
 from pathlib import Path
 from tests.gate.made import case, run, with_value
 out = Path(sys.argv[sys.argv.index("--out") + 1]); out.mkdir(parents=True, exist_ok=True)
-value = dict(clean=1.0, wrong=9.0, moved=1.5, same=1.0)["%s"]
+value = dict(clean=1.0, wrong=9.0, moved=1.5, same=1.0, lost=None)["%s"]
+if value is None:
+    sys.exit(2)
 c = case("kernel/one", provenance=dict(commit="%s"))
 verdict = "fail" if value > 2 else "pass"
 run(out, with_value(dict(c, verdict=verdict), value, verdict=verdict), provenance=dict(commit="%s"))
@@ -167,6 +169,7 @@ def project(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", f"{tools}:/usr/bin:/bin")
     monkeypatch.setattr(scratch, "ROOT", home)
     monkeypatch.setattr(scratch.SwitchedTree, "factors", tmp_path / "none")
+    monkeypatch.setattr(command, "TREES", home / "build")
     monkeypatch.setattr(command.baseline, "read_all", dict)
     folder = tmp_path / "patches"
     folder.mkdir()
@@ -202,6 +205,13 @@ def test_what_does_not_apply_or_compile_is_an_error_and_stops_nothing(project, c
     assert hunt() == 3
     assert fates(place) == {"stale": "error", "unbuilt": "error", "killed": "killed"}
     assert "does not compile: x:1: error: no such word" in capsys.readouterr().out
+
+
+def test_a_program_that_ran_nothing_killed_nothing(project, capsys):
+    plant, hunt, place = project
+    plant("lost", "lost")
+    assert hunt() == 3
+    assert fates(place) == {} and "ended with 2" in capsys.readouterr().err
 
 
 def test_a_hunt_goes_on_where_it_was_cut_short(project, capsys):
