@@ -13,17 +13,19 @@ StepLength step_length(const Body<Dim>& body, double compression, const StepCont
   const double h = body.smoothing_length();
   const auto n = static_cast<std::int64_t>(p.size());
   const bool reference = body.scheme.frame == Frame::reference;
-  double c = 0.0, a2 = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : c, a2)
+  double c = 0.0, c_squeezed = 0.0, a2 = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : c, c_squeezed, a2)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    c = std::max(c, reference ? reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]) : p.sound_speed[i]);
+    c = std::max(c, p.sound_speed[i]);
+    if (reference) c_squeezed = std::max(c_squeezed, reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]));
     a2 = std::max(a2, p.acceleration[i].squaredNorm());
   }
   StepLength step{control.courant * h / c, StepLimiter::courant};
   const auto limit = [&step](double dt, StepLimiter limiter) {
     if (dt < step.dt) step = {dt, limiter};
   };
+  if (reference) limit((control.squeezed > 0.0 ? control.squeezed : control.courant) * h / c_squeezed, StepLimiter::courant);
   if (const auto& viscosity = body.scheme.viscosity; viscosity && !reference) {
     const double mu = h * compression;
     limit(control.courant * h / (c + 0.6 * (viscosity->alpha * c + viscosity->beta * mu)), StepLimiter::viscous);

@@ -15,6 +15,7 @@ constexpr std::string_view name_of(StepLimiter limiter) {
 
 struct StepControl {
   double courant = 0.3;   ///< times h/c
+  double squeezed = 0.0;  ///< reference frame: times h/c_s of the most squeezed particle (reference_speed); 0 = as `courant`
   double force = 0.25;    ///< times sqrt(h/a)
   double first = 1.0;     ///< the first step is this part of what the conditions allow: less than 1 where a run begins with an impact
   double growth = 0.0;    ///< each step is at most so many times the one before it; 0 = no such limit

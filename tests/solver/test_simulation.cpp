@@ -347,3 +347,19 @@ TEST_CASE("The first step and the growth of steps can be held back", "[simulatio
   for (int k = 0; k < 100; ++k) held.step(1.0);
   CHECK(held.limiter() != StepLimiter::growth);   // what the conditions allow is reached, and kept
 }
+
+TEST_CASE("A squeezed body may have a step of its own in the reference frame", "[simulation]") {
+  const auto step_of = [](double squeeze, double factor) {
+    Simulation<2> block = struck_block_in_reference();
+    block.control.squeezed = factor;
+    block.control.force = 1e6;
+    block.start();
+    for (auto& F : block.body.particles.deformation_gradient) F = Vector<2>(squeeze, 1.0).asDiagonal();
+    return step_length(block.body, 0.0, block.control).dt;
+  };
+  const double plain = step_of(1.0, 0.0);
+  CHECK(step_of(0.25, 0.0) == Approx(0.25 * plain));
+  const double courant = struck_block_in_reference().control.courant;
+  CHECK(step_of(0.25, 2.0 * courant) == Approx(0.5 * plain));
+  CHECK(step_of(0.8, 2.0 * courant) == Approx(plain));   // never beyond what the undeformed body allows
+}
