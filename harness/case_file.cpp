@@ -276,10 +276,10 @@ std::vector<MetricBlock> metric_blocks(const Parameters& at, const MetricSets& s
     for (const std::string& name : at.texts("metric_sets")) {
       const auto set = sets.find(name);
       if (set == sets.end()) {
-        std::vector<std::string> known;
-        for (const auto& [key, metrics] : sets) known.push_back(key);
+        std::string known;
+        for (const auto& [key, metrics] : sets) known += known.empty() ? key : ", " + key;
         at.fail("metric_sets", fmt::format("found \"{}\", expected a [[metric-set.NAME]] of this file: {}", name,
-                                           known.empty() ? "there is none" : fmt::format("{}", fmt::join(known, ", "))));
+                                           known.empty() ? "there is none" : known));
       }
       for (const Parameters& metric : set->second) put(metric, true);
     }
