@@ -180,7 +180,8 @@ class Judge {
     }
   }
 
-  /// The extrapolated value; without one, the end of the finest value's numerical uncertainty that lies further outside.
+  /// The extrapolated value; without one, both ends of the finest value's numerical uncertainty: the first that fails, else the
+  /// upper.
   void limit(const MetricSpec& metric, const MetricResult& base, MetricResult& result) const {
     const Ladder& ladder = result.ladders.front();
     Number number;
@@ -199,8 +200,8 @@ class Judge {
     set(finest - uncertainty);
     if (result.verdict == Verdict::pass || result.verdict == Verdict::reported) set(finest + uncertainty);
     if (result.reason.empty())
-      result.reason = fmt::format("the ladder is in the state {} and has no limit: the finest value with its numerical uncertainty of "
-                                  "{:.2g} %",
+      result.reason = fmt::format("the ladder is in the state {} and has no limit: the finest value with its numerical "
+                                  "uncertainty of {:.2g} %",
                                   name(ladder.state), 100.0 * ladder.gci);
   }
 

@@ -28,8 +28,9 @@ struct StepLength {
   StepLimiter limiter;
 };
 
-/// The smallest of the Courant condition h/c, the same with artificial viscosity h/(c + 0.6 (alpha c + beta mu)) (Monaghan 1992)
-/// and the force condition sqrt(h/a), each with its factor; mu = h times `compression`, the largest -tr L (1/s). Limiter `courant` stands for a length given from outside as well.
+/// The smallest of the Courant condition h/c, in the reference frame also h/c_s, the same with artificial viscosity
+/// h/(c + 0.6 (alpha c + beta mu)) (Monaghan 1992) and the force condition sqrt(h/a), each with its factor; mu = h times
+/// `compression`, the largest -tr L (1/s). Limiter `courant` stands for a length given from outside as well.
 template <int Dim>
 StepLength step_length(const Body<Dim>& body, double compression, const StepControl& control);
 
