@@ -303,6 +303,7 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   else if constexpr (Dim == 2)
     quadratic_velocity_gradient<Dim>(s, volume_, p.velocity, quadratic_, velocity_gradient_);
   return_velocities(p.velocity);
+  if (neighbour_strain) neighbour_strain(velocity_gradient_);
   for (const BoundaryLayer<Dim>& layer : layers)   // layers do not strain
     for (const std::int32_t id : layer.ids) velocity_gradient_[index_of(id)].setZero();
 

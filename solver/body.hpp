@@ -37,6 +37,8 @@ class Body {
     double contact = 0.0, external = 0.0;
   };
   std::function<Exchange(double time, std::span<const Vector<Dim>> velocity, std::span<Vector<Dim>> acceleration)> neighbour_body;
+  /// Called by respond(): another body may add to the velocity gradients what sums over its particles give.
+  std::function<void(std::span<Matrix<Dim>> velocity_gradient)> neighbour_strain;
   Images<Dim> images;
 
   double smoothing_length() const { return scheme.smoothing_ratio * spacing; }

@@ -1,6 +1,7 @@
 #include "solver/coupled_simulation.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "solver/modules.hpp"
@@ -14,8 +15,10 @@ void CoupledSimulation::couple() {
     soft.control.largest = 0.9 * step_length(stiff.body, 0.0, stiff.control).dt;   // what bending squeezes makes its step shorter
     soft.control.fixed = true;
   }
+  if (summation) couple_by_sums();
+  node_force_.assign(node_ids().size(), Vector<2>::Zero());
   stiff.body.loads.held.ids.clear();
-  for (const std::int32_t id : surface.ids)
+  for (const std::int32_t id : node_ids())
     if (id != BodySurface::rigid) stiff.body.loads.held.ids.push_back(id);
   stiff.body.loads.held.forces.assign(stiff.body.loads.held.ids.size(), Vector<2>::Zero());
   driven_.clear();
@@ -30,6 +33,44 @@ void CoupledSimulation::couple() {
   };
 }
 
+void CoupledSimulation::couple_by_sums() {
+  if (!single_rate) throw std::invalid_argument("sums over both bodies need one step for both: they cannot be sub-cycled");
+  if (soft.body.scheme.frame != Frame::current || stiff.body.scheme.frame != Frame::current)
+    throw std::invalid_argument("sums over both bodies see present positions: neither body may be in the reference frame");
+  contact.law.stiffness = contact.law.damping = contact.law.friction = contact.law.adhesion = 0.0;
+  contact.law.lennard_jones.reset();
+  all_ids_.resize(stiff.body.particles.size());
+  std::iota(all_ids_.begin(), all_ids_.end(), 0);
+  const auto find = [this] {
+    const Particles<2>& p = soft.body.particles;
+    soil_.resize(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) soil_[i] = soft.body.is_in_layer(i) ? 0 : 1;
+    summation->find_pairs(p, stiff.body.particles, soil_);
+  };
+  soft.body.neighbour_strain = [this, find](std::span<Matrix<2>> gradient) {
+    find();
+    summation->strain_soft(soft.body.particles, stiff.body.particles, gradient);
+  };
+  stiff.body.neighbour_strain = [this, find](std::span<Matrix<2>> gradient) {
+    find();
+    summation->strain_stiff(soft.body.particles, stiff.body.particles, gradient);
+  };
+}
+
+Body<2>::Exchange CoupledSimulation::exchange(double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration,
+                                              Vector<2>& force) {
+  const auto touch = contact.touch(soft.body.particles, soft.body.spacing, time, velocity, acceleration, outline_,
+                                   [this](std::size_t i) { return !soft.body.is_in_layer(i); });
+  if (!summation) {
+    node_force_ = outline_.force;
+    force = touch.force;
+    return {touch.power, touch.surface_power};
+  }
+  const auto pull = summation->pull(soft.body.particles, stiff.body.particles, velocity, acceleration, node_force_);
+  force = pull.force;
+  return {pull.repulsion_power, pull.power + pull.repulsion_power};
+}
+
 Body<2>::Exchange CoupledSimulation::look(double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration) {
   if (!started_) {
     stiff.start();
@@ -41,11 +82,11 @@ Body<2>::Exchange CoupledSimulation::look(double time, std::span<const Vector<2>
   }
   place_outline(time);
   has_run(Module::coupled_simulation);
-  const auto touch = contact.touch(soft.body.particles, soft.body.spacing, time, velocity, acceleration, outline_,
-                                   [this](std::size_t i) { return !soft.body.is_in_layer(i); });
-  impulses_.soil -= 0.5 * previous_dt_ * touch.force;
-  impulses_.pending = 0.5 * previous_dt_ * touch.force;
-  return {touch.power, touch.surface_power};
+  Vector<2> force;
+  const Body<2>::Exchange powers = exchange(time, velocity, acceleration, force);
+  impulses_.soil -= 0.5 * previous_dt_ * force;
+  impulses_.pending = 0.5 * previous_dt_ * force;
+  return powers;
 }
 
 void CoupledSimulation::advance_stiff(double time) {
@@ -53,9 +94,9 @@ void CoupledSimulation::advance_stiff(double time) {
   const double dt = time - stiff.time(), factor = 0.5 * (previous_dt_ + dt) / dt;
   Vector<2> on_particles = Vector<2>::Zero(), on_rigid = Vector<2>::Zero();
   std::size_t next = 0;
-  for (std::size_t k = 0; k < surface.ids.size(); ++k) {
-    const Vector<2> force = factor * outline_.force[k];
-    if (surface.ids[k] == BodySurface::rigid) {
+  for (std::size_t k = 0; k < node_ids().size(); ++k) {
+    const Vector<2> force = factor * node_force_[k];
+    if (node_ids()[k] == BodySurface::rigid) {
       on_rigid += force;
     } else {
       change_held(next++, force);
@@ -119,8 +160,8 @@ Vector<2> CoupledSimulation::stone_force() const {
 
 Vector<2> CoupledSimulation::actuator_force() const {
   Vector<2> sum = reaction_;
-  for (std::size_t k = 0; k < surface.ids.size(); ++k)
-    if (surface.ids[k] == BodySurface::rigid) sum += outline_.force[k];
+  for (std::size_t k = 0; k < node_ids().size(); ++k)
+    if (node_ids()[k] == BodySurface::rigid) sum += node_force_[k];
   return sum;
 }
 
@@ -129,7 +170,7 @@ double CoupledSimulation::energy_error() const {
 }
 
 CoupledSimulation::Memory CoupledSimulation::memory() const {
-  return {contact.memory(), impulses_, actuator_work_, previous_dt_, initial_energy_, reaction_, stone_force_, outline_.force,
+  return {contact.memory(), impulses_, actuator_work_, previous_dt_, initial_energy_, reaction_, stone_force_, node_force_,
           stiff.body.loads.held.forces};
 }
 
@@ -141,7 +182,7 @@ void CoupledSimulation::remember(const Memory& memory) {
   initial_energy_ = memory.initial_energy;
   reaction_ = memory.reaction;
   stone_force_ = memory.stone_force;
-  outline_.force = memory.node_force;
+  node_force_ = memory.node_force;
   stiff.body.loads.held.forces = memory.held_force;
   started_ = true;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/boundaries/contact.hpp"
+#include "solver/boundaries/summation_interface.hpp"
 #include "solver/simulation.hpp"
 
 namespace furrow {
@@ -29,6 +30,9 @@ class CoupledSimulation {
   Contact<2> contact;
   BodySurface surface;
   bool single_rate = false;   ///< both bodies take the step of the stiff one
+  /// In place of `contact`, which then measures overlap and gives no force: sums over the particles of both bodies alike. Only with
+  /// a single rate, since the stress of the stiff body changes in each of its steps, and with both bodies in the present frame.
+  std::optional<SummationInterface> summation;
 
   CoupledSimulation() = default;
   CoupledSimulation(const CoupledSimulation&) = delete;
@@ -39,8 +43,10 @@ class CoupledSimulation {
   void couple();
 
   const Outline<2>& outline() const { return outline_; }
-  /// Contact force on each node as of the last look, N.
-  const std::vector<Vector<2>>& node_forces() const { return outline_.force; }
+  /// Particles of the stiff body (or points of its rigid part) that forces of the soft one act on, by id: with contact those of its
+  /// surface, with sums over both bodies all of it; and these forces as of the last look, N.
+  const std::vector<std::int32_t>& node_ids() const { return summation ? all_ids_ : surface.ids; }
+  const std::vector<Vector<2>>& node_forces() const { return node_force_; }
   std::int64_t sub_steps() const { return stiff.steps(); }
 
   /// Momentum, N s, since the start: given to the tool's particles by contact, to its rigid part by contact, to the tool by its
@@ -72,6 +78,9 @@ class CoupledSimulation {
   void remember(const Memory& memory);
 
  private:
+  void couple_by_sums();
+  Body<2>::Exchange exchange(double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration,
+                             Vector<2>& force);
   Body<2>::Exchange look(double time, std::span<const Vector<2>> velocity, std::span<Vector<2>> acceleration);
   void advance_stiff(double time);
   /// A new held force on the k-th particle that has one.
@@ -82,6 +91,9 @@ class CoupledSimulation {
 
   Outline<2> outline_;
   Impulses impulses_;
+  std::vector<std::int32_t> all_ids_;
+  std::vector<Vector<2>> node_force_;
+  std::vector<std::uint8_t> soil_;     ///< by the soft body's particle: whether it is none of a boundary layer
   std::vector<std::uint8_t> driven_;   ///< by held force: whether its particle is moved by the actuator
   bool started_ = false;
   double previous_dt_ = 0.0, actuator_work_ = 0.0, initial_energy_ = 0.0;

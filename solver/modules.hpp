@@ -13,7 +13,7 @@ enum class Module : std::size_t {
   velocity_gradient, momentum, density, viscosity, artificial_stress, kernel_correction, quadratic_gradient, hourglass, xsph,
   reference_frame,
   images, neighbours,
-  wall, boundary_layer, contact, prescribed_motion, held_face, applied_force, held_forces, gravity, damping,
+  wall, boundary_layer, contact, summation_interface, prescribed_motion, held_face, applied_force, held_forces, gravity, damping,
   step_control, simulation, coupled_simulation,
 };
 
@@ -24,8 +24,9 @@ inline constexpr std::array module_names = std::to_array<std::string_view>({
     "schemes/velocity_gradient", "schemes/momentum", "schemes/density", "schemes/viscosity", "schemes/artificial_stress",
     "schemes/kernel_correction", "schemes/quadratic_gradient", "schemes/hourglass", "schemes/xsph", "schemes/reference_frame",
     "particles/images", "particles/neighbours",
-    "boundaries/wall", "boundaries/boundary_layer", "boundaries/contact", "boundaries/prescribed_motion", "boundaries/held_face",
-    "boundaries/applied_force", "boundaries/held_forces", "boundaries/gravity", "boundaries/damping",
+    "boundaries/wall", "boundaries/boundary_layer", "boundaries/contact", "boundaries/summation_interface",
+    "boundaries/prescribed_motion", "boundaries/held_face", "boundaries/applied_force", "boundaries/held_forces",
+    "boundaries/gravity", "boundaries/damping",
     "integrators/step_control", "simulation", "coupled_simulation",
 });
 static_assert(module_names.size() == static_cast<std::size_t>(Module::coupled_simulation) + 1);

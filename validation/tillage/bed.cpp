@@ -47,25 +47,14 @@ Blade read_blade(const Parameters& input, const Bed& bed) {
   return blade;
 }
 
-ContactLaw read_contact(const Parameters& input, const Bed& bed, const Blade& blade) {
-  const Parameters in = input.table_or_empty("contact");
-  const DruckerPrager& law = bed.soil.law;
-  ContactLaw contact;
-  contact.stiffness = in.number_or("stiffness", 1.0, range::positive) * (law.bulk_modulus + 4.0 / 3.0 * law.shear_modulus);
-  contact.damping = in.number_or("damping", 0.0, range::not_negative);
-  contact.friction = blade.friction;
-  contact.adhesion = blade.adhesion;
-  contact.sticking_stiffness = in.number_or("sticking_stiffness", 1.0, range::positive) * law.shear_modulus;
-  if (in.has("lennard_jones")) {
-    const Parameters lj = in.table("lennard_jones");
-    contact.lennard_jones = LennardJones{.coefficient = lj.number("coefficient", range::positive),
-                                         .cut_off = lj.number("cut_off", {0.1, 3.0}),
-                                         .steep = lj.number("steep", range::positive),
-                                         .flat = lj.number("flat", range::positive)};
-    if (contact.lennard_jones->steep <= contact.lennard_jones->flat)
-      lj.fail("steep", "found an exponent that is not above the other, flat; expected steep > flat: the force would attract");
-  }
-  return contact;
+Interface read_interface(const Parameters& input, const Bed& bed, const Blade& blade) {
+  Interface interface = read_interface(input, bed.soil.law);
+  if (interface.summation && (blade.friction > 0.0 || blade.adhesion > 0.0))
+    input.fail(blade.friction > 0.0 ? "friction" : "adhesion",
+               "found one beside sums over both bodies, which do not know a surface");
+  interface.contact.friction = blade.friction;
+  interface.contact.adhesion = blade.adhesion;
+  return interface;
 }
 
 Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution,

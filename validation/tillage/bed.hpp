@@ -8,6 +8,7 @@
 #include "harness/scheme_input.hpp"
 #include "harness/soil_box.hpp"
 #include "reference/exact/earthmoving.hpp"
+#include "validation/tillage/interface_input.hpp"
 
 namespace furrow::tillage_cases {
 
@@ -38,8 +39,8 @@ struct Blade {
 /// The blade and its place; an InputError where it cannot be.
 Blade read_blade(const Parameters& input, const Bed& bed);
 
-/// How contact answers.
-ContactLaw read_contact(const Parameters& input, const Bed& bed, const Blade& blade);
+/// How soil and tool act on each other, the blade's friction and adhesion included.
+Interface read_interface(const Parameters& input, const Bed& bed, const Blade& blade);
 
 /// The body of soil, at rest, without what a disc (centre and radius) fills.
 Body<2> soil_body(const Bed& bed, const Blade& blade, const Resolution& resolution,

@@ -9,6 +9,7 @@ Family tillage_family() {
   family.add("speed_law", tillage_cases::speed_law);
   family.add("elastic_tool", tillage_cases::elastic_tool);
   family.add("breaking_tool", tillage_cases::breaking_tool);
+  family.add("interface_patch", tillage_cases::interface_patch);
   family.add("multi_rate", tillage_cases::multi_rate);
   return family;
 }

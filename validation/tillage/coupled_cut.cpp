@@ -16,7 +16,7 @@ CoupledSetup read_coupled(const Parameters& input) {
   CoupledSetup setup{.bed = bed,
                      .blade = blade,
                      .tool = read_tool(input, blade),
-                     .contact = read_contact(input, bed, blade),
+                     .interface = read_interface(input, bed, blade),
                      .stone = read_stone(input, bed, blade),
                      .stone_contact = {},
                      .end_time = blade.travel / blade.speed,
@@ -41,19 +41,19 @@ void set_up(CoupledSimulation& coupled, const CoupledSetup& s, const Resolution&
   soft.watch.high = {2.0 * s.bed.length, 6.0 * s.bed.height};
   add_tool(coupled, s.tool, s.bed, s.blade);
   coupled.contact.name = "tool";
-  coupled.contact.law = s.contact;
+  coupled.contact.law = s.interface.contact;
   coupled.single_rate = s.single_rate;
   if (s.stone) {
     RigidBody<2> stone;
     stone.contact.name = "stone";
-    stone.contact.law = s.contact;
+    stone.contact.law = s.interface.contact;
     stone.start = {s.stone->centre};
     stone.outline = Outline<2>::through(stone.start, s.stone->radius);
     soft.body.rigid_bodies.push_back(stone);
     stone.contact.law = s.stone_contact;
     coupled.stiff.body.rigid_bodies.push_back(std::move(stone));
   }
-  coupled.couple();
+  couple(coupled, s.interface);
   check_start(soft.body, coupled.outline(), s.blade, coupled.contact.range(soft.body.spacing));
 }
 

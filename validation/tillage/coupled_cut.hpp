@@ -10,7 +10,7 @@ struct CoupledSetup {
   Bed bed;
   Blade blade;
   Tool tool;
-  ContactLaw contact;
+  Interface interface;
   std::optional<Stone> stone;
   ContactLaw stone_contact;   ///< of the tool with the stone
   double end_time;            ///< s

@@ -28,7 +28,7 @@ Problem elastic_tool(const Parameters& input) {
 
     // The rigid blade of the same outline beside it, over the same travel.
     Run beside(run.resolution(), run.folder() / "rigid", run.threads());
-    const CutResult rigid = cut(beside, setup.bed, setup.blade, setup.contact, from * setup.blade.speed, false);
+    const CutResult rigid = cut(beside, setup.bed, setup.blade, setup.interface.contact, from * setup.blade.speed, false);
     run.count(beside.steps(), beside.particles());
     const double draft = mean_over(h, h.draft, from, to);
     run.measure("draft", draft, "N/m", {rigid.draft, 0.0});

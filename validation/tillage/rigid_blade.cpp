@@ -10,6 +10,12 @@
 namespace furrow::tillage_cases {
 namespace {
 
+ContactLaw contact_alone(const Parameters& input, const Bed& bed, const Blade& blade) {
+  const Interface interface = read_interface(input, bed, blade);
+  if (interface.summation) input.fail("interface", "found sums over both bodies, expected contact: a rigid blade has none");
+  return interface.contact;
+}
+
 constexpr double uncertainty = 0.05;   ///< of independent means, relative
 
 void force_figure(Run& run, const Blade& blade, const CutResult& result, const std::optional<IndependentCut>& other,
@@ -36,7 +42,7 @@ void force_figure(Run& run, const Blade& blade, const CutResult& result, const s
 Problem rigid_blade(const Parameters& input) {
   const Bed bed = read_bed(input);
   const Blade blade = read_blade(input, bed);
-  const ContactLaw contact = read_contact(input, bed, blade);
+  const ContactLaw contact = contact_alone(input, bed, blade);
   const double window_start = input.quantity("window_start", dimension::length, {0.0, blade.travel, false, true});
   // The independent blade is the standard one; whether this is that is for the case to say.
   const bool compare = input.flag("independent");
@@ -63,7 +69,7 @@ Problem rigid_blade(const Parameters& input) {
 Problem speed_law(const Parameters& input) {
   const Bed bed = read_bed(input);
   Blade blade = read_blade(input, bed);
-  const ContactLaw contact = read_contact(input, bed, blade);
+  const ContactLaw contact = contact_alone(input, bed, blade);
   const double window_start = input.quantity("window_start", dimension::length, {0.0, blade.travel, false, true});
   const std::vector<double> speeds = input.quantities("speeds", dimension::velocity, range::positive);
   if (speeds.size() < 3) input.fail("speeds", "found fewer than three speeds, expected three or more: two constants and a check");

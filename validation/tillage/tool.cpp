@@ -119,7 +119,7 @@ double tip_deflection(const CoupledSimulation& coupled, const Tool& tool, const 
 
 double beam_deflection(const CoupledSimulation& coupled, const Tool& tool, const Blade& blade) {
   std::vector<exact::BeamLoad> loads;
-  const auto& ids = coupled.surface.ids;
+  const auto& ids = coupled.node_ids();
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k] == BodySurface::rigid) continue;
     const Place at = place_of(tool, blade, ids[k]);
