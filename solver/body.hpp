@@ -69,6 +69,10 @@ class Body {
   /// comes back as it was.
   void accelerate(double time, std::span<Vector<Dim>> velocity);
 
+  /// kappa = omega h/c_s of the body's largest frequency omega, in the reference frame (reference_wave_number); c_s of its most
+  /// squeezed particle. Changes nothing that a later step sees.
+  double largest_wave_number();
+
   /// Sets the velocity of prescribed particles and of boundary layers.
   void prescribe(double time, std::span<Vector<Dim>> velocity) const;
   /// Kinetic energy of the particles whose motion is prescribed, J: what sets them in motion did this work.

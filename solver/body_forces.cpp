@@ -131,6 +131,21 @@ void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
 }
 
 template <int Dim>
+double Body<Dim>::largest_wave_number() {
+  if (!in_reference_frame() || scheme.correction == Correction::quadratic)
+    throw std::invalid_argument("the largest frequency is there for the reference frame with the correction none or linear");
+  Particles<Dim>& p = particles;
+  const auto n = static_cast<std::int64_t>(p.size());
+  double fastest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : fastest)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    fastest = std::max(fastest, reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]));
+  }
+  return largest_frequency<Dim>(stencil(), p, volume_, linear_, undeformed_) * smoothing_length() / fastest;
+}
+
+template <int Dim>
 LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
   const std::size_t n = particles.size();
   soil_volume_.resize(particles.position.size());
@@ -207,6 +222,7 @@ void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
 #define FURROW_INSTANTIATE(Dim)                                                                \
   template void Body<Dim>::accelerate(double, std::span<Vector<Dim>>);                         \
   template void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>>);              \
+  template double Body<Dim>::largest_wave_number();                                            \
   template LayerSurroundings<Dim> Body<Dim>::layer_surroundings();                             \
   template void Body<Dim>::lend_velocities(std::span<Vector<Dim>>, bool);                      \
   template void Body<Dim>::return_velocities(std::span<Vector<Dim>>) const;                    \

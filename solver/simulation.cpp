@@ -31,7 +31,8 @@ void Simulation<Dim>::step(double end) {
   has_run(Module::simulation);
   Particles<Dim>& p = body.particles;
   const std::size_t n = p.size();
-  StepLength length = step_length(body, compression_, control);
+  if (control.stability > 0.0 && steps_ % frequency_every == 0) wave_number_ = body.largest_wave_number();
+  StepLength length = step_length(body, compression_, control, wave_number_);
   const double grown = steps_ == 0 ? control.first * length.dt : control.growth * dt_;
   if (!control.fixed && (steps_ == 0 || control.growth > 0.0) && grown < length.dt) length = {grown, StepLimiter::growth};
   const bool last = time_ + length.dt >= end;
@@ -205,7 +206,7 @@ void Simulation<Dim>::check() const {
 
 template <int Dim>
 typename Simulation<Dim>::Clock Simulation<Dim>::clock() const {
-  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, deposited_,
+  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, wave_number_, deposited_,
           steps_, limiter_, energy_, powers_};
 }
 
@@ -218,6 +219,7 @@ void Simulation<Dim>::resume(const Clock& clock) {
   initial_energy_ = clock.initial_energy;
   energy_scale_ = clock.energy_scale;
   initial_internal_ = clock.initial_internal;
+  wave_number_ = clock.wave_number;
   deposited_ = clock.deposited;
   steps_ = clock.steps;
   limiter_ = clock.limiter;

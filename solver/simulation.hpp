@@ -49,6 +49,8 @@ class Simulation {
   /// (E - E_0) over the largest kinetic plus elastic energy or work so far.
   double energy_imbalance() const { return imbalance_; }
   static constexpr std::int64_t stock_every = 10;
+  /// With `control.stability` the largest frequency is looked up anew so often; in between it follows what is squeezed most.
+  static constexpr std::int64_t frequency_every = 100;
   void take_stock();
   Vector<Dim> momentum() const;
   double angular_momentum() const;   ///< about z through the origin, kg m^2/s
@@ -61,6 +63,7 @@ class Simulation {
     double time = 0.0, dt = 0.0, first_dt = 0.0;
     double compression = 0.0;        ///< largest -tr L, 1/s
     double initial_energy = 0.0, energy_scale = 0.0, initial_internal = 0.0;
+    double wave_number = 0.0;        ///< kappa of step_length
     double deposited = 0.0;          ///< viscous heat in the particles' internal energy, J
     std::int64_t steps = 0;
     StepLimiter limiter = StepLimiter::courant;
@@ -77,7 +80,7 @@ class Simulation {
   void check() const;
   Powers powers() const;
 
-  double time_ = 0.0, dt_ = 0.0, first_dt_ = 0.0, compression_ = 0.0;
+  double time_ = 0.0, dt_ = 0.0, first_dt_ = 0.0, compression_ = 0.0, wave_number_ = 0.0;
   double initial_energy_ = 0.0, energy_scale_ = 0.0, initial_internal_ = 0.0, deposited_ = 0.0, imbalance_ = 0.0;
   std::int64_t steps_ = 0;
   StepLimiter limiter_ = StepLimiter::courant;

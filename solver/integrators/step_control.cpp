@@ -6,7 +6,7 @@
 namespace furrow {
 
 template <int Dim>
-StepLength step_length(const Body<Dim>& body, double compression, const StepControl& control) {
+StepLength step_length(const Body<Dim>& body, double compression, const StepControl& control, double wave_number) {
   has_run(Module::step_control);
   if (control.fixed) return {control.largest, StepLimiter::courant};
   const Particles<Dim>& p = body.particles;
@@ -25,7 +25,10 @@ StepLength step_length(const Body<Dim>& body, double compression, const StepCont
   const auto limit = [&step](double dt, StepLimiter limiter) {
     if (dt < step.dt) step = {dt, limiter};
   };
-  if (reference) limit((control.squeezed > 0.0 ? control.squeezed : control.courant) * h / c_squeezed, StepLimiter::courant);
+  if (reference && wave_number > 0.0)
+    step.dt = control.stability * 2.0 * h / (wave_number * c_squeezed);
+  else if (reference)
+    limit(control.courant * h / c_squeezed, StepLimiter::courant);
   if (const auto& viscosity = body.scheme.viscosity; viscosity && !reference) {
     const double mu = h * compression;
     limit(control.courant * h / (c + 0.6 * (viscosity->alpha * c + viscosity->beta * mu)), StepLimiter::viscous);
@@ -35,7 +38,7 @@ StepLength step_length(const Body<Dim>& body, double compression, const StepCont
   return step;
 }
 
-template StepLength step_length<2>(const Body<2>&, double, const StepControl&);
-template StepLength step_length<3>(const Body<3>&, double, const StepControl&);
+template StepLength step_length<2>(const Body<2>&, double, const StepControl&, double);
+template StepLength step_length<3>(const Body<3>&, double, const StepControl&, double);
 
 }  // namespace furrow

@@ -15,6 +15,7 @@ void for_each_number(Clock& c, Visit&& visit) {
   visit("initial_energy", c.initial_energy);
   visit("energy_scale", c.energy_scale);
   visit("initial_internal", c.initial_internal);
+  visit("wave_number", c.wave_number);
   visit("deposited", c.deposited);
   visit("energy.kinetic", c.energy.kinetic);
   visit("energy.elastic", c.energy.elastic);

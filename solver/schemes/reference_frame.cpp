@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 
 #include "solver/modules.hpp"
+#include "solver/particles/ordered_sum.hpp"
+#include "solver/schemes/velocity_gradient.hpp"
 
 namespace furrow {
 
@@ -51,6 +53,42 @@ struct HourglassSum {
 }  // namespace
 
 template <int Dim>
+double largest_frequency(const Stencil<Dim>& reference, const Particles<Dim>& p, std::span<const double> volume,
+                         std::span<const Matrix<Dim>> correction, Particles<Dim>& undeformed) {
+  const std::size_t n = p.size(), extended = reference.position.size();
+  std::vector<Vector<Dim>> u(extended, Vector<Dim>::Zero()), a(n);
+  std::vector<Matrix<Dim>> gradient(n);
+  std::vector<MomentumPower> power(n);
+  MomentumWorkspace<Dim> workspace;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::uint64_t noise = static_cast<std::uint64_t>(p.id[i]) + 1;
+    for (int k = 0; k < Dim; ++k) {
+      noise = noise * 6364136223846793005U + 1442695040888963407U;   // Knuth's generator: the same on every machine
+      u[i][k] = static_cast<double>(noise >> 33) * 0x1p-30 - 1.0;
+    }
+  }
+  const auto view = correction.empty() ? CorrectionView<Dim>{} : CorrectionView<Dim>{correction};
+  const auto norm = [&](std::span<const Vector<Dim>> w) {
+    return std::sqrt(std::get<0>(ordered_sum<1>(n, [&](std::size_t i, auto& sum) { sum[0] += p.mass[i] * w[i].squaredNorm(); })));
+  };
+  double omega = 0.0;
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    if (reference.images) reference.images->fill_velocities(std::span(u));
+    velocity_gradient<Dim>(reference, volume, u, correction, gradient);
+    for_all(n, [&](std::size_t i) {
+      const Matrix<Dim> inverse = p.deformation_gradient[i].inverse();
+      const double modulus = undeformed.density[i] * p.sound_speed[i] * p.sound_speed[i];
+      undeformed.stress[i].template topLeftCorner<Dim, Dim>() = modulus * (gradient[i] * inverse).trace() * inverse.transpose();
+    });
+    momentum<Dim>(reference, undeformed, u, view, {}, workspace, a, power);
+    const double ratio = norm(a) / norm(u);
+    omega = std::sqrt(ratio);
+    for_all(n, [&](std::size_t i) { u[i] = a[i] / ratio; });
+  }
+  return omega;
+}
+
+template <int Dim>
 void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p, std::span<const double> volume,
                          std::span<const Vector<Dim>> velocity, std::span<const Matrix<Dim>> gradient_rate, double chi,
                          double zeta, std::span<Vector<Dim>> acceleration, std::span<MomentumPower> power) {
@@ -94,6 +132,8 @@ void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p,
 #define FURROW_INSTANTIATE(Dim)                                                                                               \
   template Matrix<Dim> first_piola<Dim>(const Matrix<Dim>&, const Matrix<Dim>&, double);                                      \
   template double reference_speed<Dim>(const Matrix<Dim>&, double);                                                           \
+  template double largest_frequency<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const double>,                 \
+                                         std::span<const Matrix<Dim>>, Particles<Dim>&);                                      \
   template void reference_hourglass<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const double>,                 \
                                          std::span<const Vector<Dim>>, std::span<const Matrix<Dim>>, double, double,          \
                                          std::span<Vector<Dim>>, std::span<MomentumPower>);

@@ -25,6 +25,15 @@ inline double bulk_viscosity(const BulkViscosity& model, double d, double rho, d
 template <int Dim>
 double reference_speed(const Matrix<Dim>& F, double c);
 
+/// Largest frequency of the body as it is now, 1/s, to some percent and from below: that of the waves that change volume,
+///   P' = rho_0 c^2 (F' : F^-T) F^-T,  u'' = Div P' / rho_0,
+/// by ten steps of the power method from displacements that are noise. An explicit step is stable up to 2/omega (Courant,
+/// Friedrichs & Lewy 1928). What the sums see of a wave depends on the pattern of particles, on free faces and on how far
+/// particles that are squeezed alike reach; none of it is guessed. `undeformed`: masses, reference densities; its stress is used up.
+template <int Dim>
+double largest_frequency(const Stencil<Dim>& reference, const Particles<Dim>& particles, std::span<const double> volume,
+                         std::span<const Matrix<Dim>> correction, Particles<Dim>& undeformed);
+
 /// Adds what resists motion that the gradients do not see. With n the direction of a pair now,
 ///   delta_ij = x_ij - (F_i + F_j)/2 X_ij,   d_ij = v_ij - (F'_i + F'_j)/2 X_ij,   rho c^2 of the pair's mean,
 ///   a_i += -1/m_i sum_j V_i V_j W(X_ij)/X_ij^2 [chi rho c^2 delta_ij.n + zeta rho c h d_ij.n] n

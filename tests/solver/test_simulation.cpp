@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstring>
+#include <numbers>
 
 #include "harness/soil_box.hpp"
 #include "solver/io/simulation_checkpoint.hpp"
@@ -49,6 +50,14 @@ Simulation<2> struck_block_in_reference() {
   return simulation;
 }
 
+/// The same with a linear correction, and steps by its largest frequency.
+Simulation<2> struck_block_by_frequency() {
+  Simulation<2> simulation = struck_block_in_reference();
+  simulation.body.scheme.correction = Correction::linear;
+  simulation.control.stability = 0.8;
+  return simulation;
+}
+
 /// The same block on a rough boundary layer, with gravity, in place of the symmetry plane.
 Simulation<2> struck_block_on_a_layer() {
   Simulation<2> simulation = struck_block();
@@ -73,7 +82,7 @@ Simulation<2> block_and_plate() {
   return simulation;
 }
 
-constexpr std::array blocks{struck_block, struck_block_in_reference, struck_block_on_a_layer, block_and_plate};
+constexpr std::array blocks{struck_block, struck_block_in_reference, struck_block_by_frequency, struck_block_on_a_layer, block_and_plate};
 
 /// Every field of the table, bit for bit.
 bool same(const Simulation<2>& a, const Simulation<2>& b) {
@@ -152,7 +161,7 @@ TEST_CASE("layers far from soil cost nothing and change nothing", "[simulation]"
 }
 
 TEST_CASE("a restart from a checkpoint is bit for bit the run that was never stopped", "[simulation]") {
-  const auto block = blocks[GENERATE(0u, 1u, 2u, 3u)];
+  const auto block = blocks[GENERATE(0u, 1u, 2u, 3u, 4u)];
   Simulation<2> whole = block();
   whole.start();
   for (int k = 0; k < 150; ++k) whole.step(1.0);
@@ -169,7 +178,7 @@ TEST_CASE("a restart from a checkpoint is bit for bit the run that was never sto
 }
 
 TEST_CASE("one and several threads give the same bits", "[simulation]") {
-  const auto block = blocks[GENERATE(0u, 1u, 2u, 3u)];
+  const auto block = blocks[GENERATE(0u, 1u, 2u, 3u, 4u)];
   const auto run = [block](int threads) {
     omp_set_num_threads(threads);
     Simulation<2> simulation = block();
@@ -348,18 +357,57 @@ TEST_CASE("The first step and the growth of steps can be held back", "[simulatio
   CHECK(held.limiter() != StepLimiter::growth);   // what the conditions allow is reached, and kept
 }
 
-TEST_CASE("A squeezed body may have a step of its own in the reference frame", "[simulation]") {
-  const auto step_of = [](double squeeze, double factor) {
+TEST_CASE("Courant's condition follows what is squeezed most in the reference frame", "[simulation]") {
+  const auto step_of = [](double squeeze) {
     Simulation<2> block = struck_block_in_reference();
-    block.control.squeezed = factor;
     block.control.force = 1e6;
     block.start();
     for (auto& F : block.body.particles.deformation_gradient) F = Vector<2>(squeeze, 1.0).asDiagonal();
     return step_length(block.body, 0.0, block.control).dt;
   };
-  const double plain = step_of(1.0, 0.0);
-  CHECK(step_of(0.25, 0.0) == Approx(0.25 * plain));
-  const double courant = struck_block_in_reference().control.courant;
-  CHECK(step_of(0.25, 2.0 * courant) == Approx(0.5 * plain));
-  CHECK(step_of(0.8, 2.0 * courant) == Approx(plain));   // never beyond what the undeformed body allows
+  CHECK(step_of(0.25) == Approx(0.25 * step_of(1.0)));
+}
+
+TEST_CASE("The largest frequency of a periodic lattice is that of a plane wave", "[simulation]") {
+  constexpr int cells = 16;
+  constexpr double dx = 0.01, h = 1.3 * dx, pi = std::numbers::pi;
+  const Vector<2> stretch(GENERATE(1.0, 0.4), 1.1);
+  Simulation<2> simulation;
+  Body<2>& body = simulation.body;
+  body.material = LinearElastic::from_young(1000.0, 2e6, 0.3);
+  body.spacing = dx;
+  body.scheme.frame = Frame::reference;
+  body.scheme.kernel = WendlandC2{};
+  body.scheme.smoothing_ratio = h / dx;
+  body.scheme.viscosity.reset();
+  body.box.length = Vector<2>::Constant(cells * dx);
+  std::vector<Vector<2>> centres;
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) centres.push_back(dx * Vector<2>(i + 0.5, j + 0.5));
+  body.add(centres);
+  simulation.start();
+  for (auto& F : body.particles.deformation_gradient) F = stretch.asDiagonal();
+
+  // u = sin(k.X): the sums see the wave vector g(k) = sum_j V_j sin(k.X_ij) grad W, the deformed body F^-T g.
+  double largest = 0.0;
+  for (int a = 0; a < cells; ++a)
+    for (int b = 0; b < cells; ++b) {
+      Vector<2> g = Vector<2>::Zero();
+      for (int i = -3; i <= 3; ++i)
+        for (int j = -3; j <= 3; ++j) {
+          const double q = dx * std::hypot(i, j) / h;
+          if (q == 0.0 || q >= 2.0) continue;
+          const double slope_over_q = -5.0 * std::pow(1.0 - 0.5 * q, 3) * 7.0 / (4.0 * pi * h * h);   // (dW/dq)/q
+          g += dx * dx * std::sin(2.0 * pi * (a * i + b * j) / cells) * slope_over_q / (h * h) * dx * Vector<2>(i, j);
+        }
+      largest = std::max(largest, g.cwiseQuotient(stretch).norm());
+    }
+  const double kappa = largest * h * std::min(1.0, stretch.minCoeff());   // c_s = c / the least stretch
+  const double found = body.largest_wave_number();
+  CHECK(found < (1.0 + 1e-9) * kappa);
+  CHECK(found > 0.95 * kappa);   // the power method comes from below
+  simulation.control.stability = 0.8;
+  simulation.control.force = 1e6;
+  simulation.step(1.0);
+  CHECK(simulation.dt() == Approx(0.8 * 2.0 / (found / kappa * largest * body.particles.sound_speed[0])));
 }
