@@ -131,6 +131,7 @@ class Body {
   std::vector<Matrix<Dim>> gradient_rate_;   ///< in the reference frame: dv/dX, F'
   Particles<Dim> undeformed_;                ///< in the reference frame: what the momentum sum sees, stress the first Piola-Kirchhoff
   std::vector<QuadraticGradient<Dim>> quadratic_;
+  std::vector<double> viscous_pressure_;     ///< in the reference frame, Pa
   std::vector<double> volume_, density_before_;
   std::vector<MomentumPower> power_;
   MomentumWorkspace<Dim> workspace_;

@@ -108,20 +108,22 @@ template <int Dim>
 void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
   Particles<Dim>& p = particles;
   const auto n = static_cast<std::int64_t>(p.size());
-  const auto viscous_pressure = [&](std::size_t i) {
-    return scheme.bulk_viscosity
-               ? bulk_viscosity(*scheme.bulk_viscosity, velocity_gradient_[i].trace(), p.density[i], p.sound_speed[i], spacing)
-               : 0.0;
-  };
+  viscous_pressure_.assign(p.size(), 0.0);
 #pragma omp parallel for schedule(static)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - viscous_pressure(i) * Matrix<Dim>::Identity();
+    const double d = velocity_gradient_[i].trace();
+    if (scheme.bulk_viscosity && d < 0.0) {
+      // Over the distance of squeezed particles as it is now: over the first one, viscosity would be stiffer than the material.
+      const double length = spacing * p.sound_speed[i] / reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]);
+      viscous_pressure_[i] = bulk_viscosity(*scheme.bulk_viscosity, d, p.density[i], p.sound_speed[i], length);
+    }
+    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - viscous_pressure_[i] * Matrix<Dim>::Identity();
     undeformed_.stress[i].template topLeftCorner<Dim, Dim>() =
         first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
   }
   momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
-  for_all(p.size(), [&](std::size_t i) { power_[i].viscous = -viscous_pressure(i) * velocity_gradient_[i].trace() / p.density[i]; });
+  for_all(p.size(), [&](std::size_t i) { power_[i].viscous = -viscous_pressure_[i] * velocity_gradient_[i].trace() / p.density[i]; });
   if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
     images.fill_tensors(std::span(p.deformation_gradient));
     images.fill_tensors(std::span(gradient_rate_));
