@@ -52,12 +52,13 @@ Scheme read_scheme(const Parameters& parameters) {
   }
   scheme.hourglass_damping = in.number_or("hourglass_damping", 0.0, {0.0, 1.0});
   scheme.hourglass = in.number_or("hourglass", 0.0, {0.0, 10.0});
+  scheme.cracks = in.flag_or("cracks", false);
   scheme.xsph = in.number_or("xsph", 0.0, {0.0, 1.0});
   scheme.energy = in.flag_or("energy", true);
   const bool reference = scheme.frame == Frame::reference;
   for (const char* key : {"viscosity", "artificial_stress", "xsph", "shepard_every", "density"})
     if (reference && in.has(key)) in.fail(key, "has no meaning in the reference frame");
-  for (const char* key : {"bulk_viscosity", "hourglass_damping"})
+  for (const char* key : {"bulk_viscosity", "hourglass_damping", "cracks"})
     if (!reference && in.has(key)) in.fail(key, "is there in the reference frame only: frame = \"reference\"");
   if (reference) scheme.viscosity.reset();
   return scheme;

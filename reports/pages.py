@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import jinja2
 
-from reports import changes, claims, kills, numbers, results, summary, trends, validation, view
+from reports import changes, claims, kills, numbers, results, studies, summary, trends, validation, view
 from reports.figures import history, ladder, lines, particles, snapshot
 
 HERE = Path(__file__).resolve().parent
@@ -197,6 +197,7 @@ def _write(run, work, jobs):
     compared = validation.groups(run)
     # A run without the family that is about the paper's own case has no page of its claims.
     ledger = claims.judge(claims.load(), run) if any(case.family == "tillage" for case in run.cases) else []
+    taken = studies.page(studies.load()) if ledger else []
     scatter = [Figure(f"figures/validation/{slug(data['name'])}.svg", data["title"], data["caption"],
                       f"{data['y']['label']} over {data['x']['label']}.", lines.draw, (data, stamp(run.provenance)))
                for data in validation.figures(compared)]
@@ -216,7 +217,7 @@ def _write(run, work, jobs):
         sparkline=trends.sparkline, trend_name=trends.name, trend_last=trends.last,
         is_number=lambda x: isinstance(x, (int, float)) and not isinstance(x, bool))
     common = {"run": run, "provenance": run.provenance, "stamp": stamp(run.provenance), "summary": summary.summarise(run),
-              "compared": compared, "changes": since, "trends": course, "ledger": ledger, "defects": defects}
+              "compared": compared, "changes": since, "trends": course, "ledger": ledger, "taken": taken, "defects": defects}
     (work / "index.html").write_text(environment.get_template("index.html").render(root="", **common), encoding="utf-8")
     if since:
         (work / "changes.html").write_text(environment.get_template("changes.html").render(
@@ -230,6 +231,9 @@ def _write(run, work, jobs):
     if ledger:
         (work / "claims.html").write_text(environment.get_template("claims.html").render(
             root="", claims=ledger, counts=claims.counts(ledger), **common), encoding="utf-8")
+    if taken:
+        (work / "what-it-would-take.html").write_text(environment.get_template("studies.html").render(
+            root="", groups=taken, hinge=studies.hinge(324e6, 1.5e-3), **common), encoding="utf-8")
     if defects:
         (work / "defects.html").write_text(environment.get_template("defects.html").render(
             root="", defect_tiers=kills.TIERS[:3], fates=kills.WORDS, fate_colours=kills.COLOURS, fate_moved=kills.moved, **common),

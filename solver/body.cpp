@@ -5,6 +5,7 @@
 
 #include "solver/particles/ordered_sum.hpp"
 #include "solver/materials/parts.hpp"
+#include "solver/schemes/cracks.hpp"
 #include "solver/schemes/density.hpp"
 #include "solver/schemes/kernel_correction.hpp"
 #include "solver/schemes/reference_frame.hpp"
@@ -164,6 +165,21 @@ void Body<Dim>::build_reference() {
   for (std::size_t i = 0; i < p.position.size(); ++i) volume_[i] = p.mass[i] / rho_0;
   velocity_gradient_.assign(n, Matrix<Dim>::Zero());
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
+  cut_pairs<Dim>(neighbours_, p.reference_position, crack_facets(p, spacing));   // those of a run that goes on
+  make_correction();
+}
+
+template <int Dim>
+void Body<Dim>::open_cracks() {
+  Particles<Dim>& p = particles;
+  bool opened = false;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p.damage[i] >= 1.0 && p.crack_normal[i].isZero(0.0)) {
+      p.crack_normal[i] = most_stretched<Dim>(p.deformation_gradient[i]);
+      opened = true;
+    }
+  if (!opened) return;
+  cut_pairs<Dim>(neighbours_, p.reference_position, crack_facets(p, spacing));
   make_correction();
 }
 
@@ -356,6 +372,7 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
         }
       },
       material);
+  if (in_reference_frame() && scheme.cracks) open_cracks();
 
   double compression = 0.0;
   const auto n = static_cast<std::int64_t>(p.size());

@@ -123,6 +123,8 @@ class Body {
   CorrectionView<Dim> view_of_correction() const;
   bool in_reference_frame() const { return scheme.frame == Frame::reference; }
   void build_reference();
+  /// In the reference frame: cuts pairs where particles have failed since the last time.
+  void open_cracks();
   void accelerate_in_reference(std::span<const Vector<Dim>> velocity);
 
   NeighbourList neighbours_;

@@ -11,7 +11,7 @@ namespace furrow {
 enum class Module : std::size_t {
   linear_elastic, j2_plastic, johnson_cook, johnson_cook_damage, drucker_prager, linear_eos, mie_grueneisen, jaumann_rate,
   velocity_gradient, momentum, density, viscosity, artificial_stress, kernel_correction, quadratic_gradient, hourglass, xsph,
-  reference_frame,
+  reference_frame, cracks,
   images, neighbours,
   wall, boundary_layer, contact, summation_interface, prescribed_motion, held_face, applied_force, held_forces, gravity, damping,
   step_control, simulation, coupled_simulation,
@@ -23,6 +23,7 @@ inline constexpr std::array module_names = std::to_array<std::string_view>({
     "materials/drucker_prager", "materials/linear_eos", "materials/mie_grueneisen", "materials/jaumann_rate",
     "schemes/velocity_gradient", "schemes/momentum", "schemes/density", "schemes/viscosity", "schemes/artificial_stress",
     "schemes/kernel_correction", "schemes/quadratic_gradient", "schemes/hourglass", "schemes/xsph", "schemes/reference_frame",
+    "schemes/cracks",
     "particles/images", "particles/neighbours",
     "boundaries/wall", "boundaries/boundary_layer", "boundaries/contact", "boundaries/summation_interface",
     "boundaries/prescribed_motion", "boundaries/held_face", "boundaries/applied_force", "boundaries/held_forces",

@@ -23,7 +23,7 @@ struct Field {
 template <int Dim>
 struct Particles {
   std::vector<std::int32_t> id;
-  std::vector<Vector<Dim>> position, velocity, acceleration, position_at_build, reference_position;
+  std::vector<Vector<Dim>> position, velocity, acceleration, position_at_build, reference_position, crack_normal;
   std::vector<Matrix<Dim>> deformation_gradient;
   std::vector<double> mass, density, density_rate;
   std::vector<Tensor> stress;
@@ -55,6 +55,8 @@ void for_each_field(P& p, Visitor&& visit) {
   visit(Field{"T", "temperature", "K", "temperature"}, p.temperature);
   visit(Field{"omega", "fracture_onset", "1", "sum of plastic strain over fracture strain, 1 when fracture begins"}, p.fracture_onset);
   visit(Field{"D", "damage", "1", "damage, 1 when failed"}, p.damage);
+  visit(Field{"n_c", "crack_normal", "1", "normal in the undeformed body of the crack that this particle's failure opened; 0 without"},
+        p.crack_normal);
 }
 
 /// Gives every field n elements; new ones are zero, images are dropped.

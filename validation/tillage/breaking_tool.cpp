@@ -46,6 +46,7 @@ Problem breaking_tool(const Parameters& input) {
     run.measure("greatest_deflection", *std::max_element(h.deflection.begin(), h.deflection.end()), "m");
     run.measure("plastic_strain", *std::max_element(h.plastic_strain.begin(), h.plastic_strain.end()));
     run.measure("failed_particles", h.failed.back());
+    if (h.failed.back() > 0.0 && setup.tool.scheme.cracks) run.exercises("schemes/cracks");
     run.measure("greatest_moment", *std::max_element(h.moment.begin(), h.moment.end()), "N");
 
     // The plateau: from where the section flows until fracture begins.

@@ -1,0 +1,148 @@
+"""What it would take for soil to break the paper's tool: runs that are stored in reference/studies.json with the commit and the day
+of each, because none of them fits into a night. `python3 -m reports.studies STUDY RUNDIR...` stores the tillage results of runs."""
+
+import argparse
+import datetime
+import json
+import math
+import sys
+import tomllib
+from pathlib import Path
+
+from reports.results import ReportError, read_json
+
+FILE = Path(__file__).resolve().parent.parent / "reference" / "studies.json"
+STUDIES = {
+    "cohesion": "Soil: how cohesive it must be",
+    "overlap": "A fixed stone of 4 mm radius: how far it must stand in the tool's way",
+    "across": "Resolution of the fracture: particles across the tool",
+}
+METRICS = ("plastic_strain", "greatest_moment", "yield_time", "fracture_time", "fracture_deflection", "peak_force", "last_over_peak",
+           "greatest_deflection", "failed_particles")
+UNITS = {"MPa": 1e6, "kPa": 1e3, "Pa": 1.0, "mm": 1e-3, "m": 1.0, "m/s": 1.0}
+
+
+def hinge(yield_stress, thickness):
+    """Moments per width (N) of a plate in plane strain that yields at its outer fibre, and that has become a hinge."""
+    limit = 2.0 / math.sqrt(3.0) * yield_stress * thickness**2 / 4.0
+    return limit / 1.5, limit
+
+
+def _si(quantity):
+    return quantity["value"] * UNITS[quantity["unit"]]
+
+
+def entry(study, result):
+    """What is kept of a result: inputs of the study, metrics, where it comes from."""
+    p = result["parameters"]
+    tool = p["tool"]
+    row = {"study": study, "case": result["case"], "speed": _si(p["speed"]), "travel": _si(p["travel"]),
+           "free_length": _si(tool["free_length"]), "across": tool["across"], "tool": tool["material"],
+           "friction": p.get("friction", 0.0), "cohesion": _cohesion(p),
+           "overlap": _si(p["stone"]["overlap"]) if "stone" in p else None,
+           "verdict": result["verdict"], "cpu": result["cost"]["cpu_s"], "commit": result["provenance"]["commit"],
+           "date": result["provenance"]["started"][:10], "metrics": {}}
+    for m in result["metrics"]:
+        if m["name"] in METRICS and m.get("value") is not None:
+            row["metrics"][m["name"]] = {"value": m["value"], "unit": m["unit"]}
+    return row
+
+
+def _cohesion(parameters):
+    for change in parameters.get("material_set", []):
+        path, _, value = change.partition("=")
+        if path.strip() == "strength.cohesion":
+            return _si(tomllib.loads(f"c = {value}")["c"])
+    file = FILE.parent / "materials" / f"{parameters['material']}.toml"
+    return _si(tomllib.loads(file.read_text(encoding="utf-8"))["strength"]["cohesion"])
+
+
+def _key(row):
+    return (row["study"], row["case"], row["cohesion"] or 0.0, row["overlap"] or 0.0, row["across"], row["free_length"], row["tool"],
+            row["friction"], row["travel"])
+
+
+def load(file=None):
+    """Stored runs, in the order of their study and inputs; none where there is no file."""
+    try:
+        data = read_json(file or FILE)
+    except FileNotFoundError:
+        return []
+    if data.get("schema") != 1:
+        raise ReportError(f"{file or FILE}: not a record of studies of schema 1")
+    return sorted(data["runs"], key=_key)
+
+
+def store(study, folders, file=None):
+    """Adds results of run folders; a run with the same inputs takes the place of the earlier one. Returns how many."""
+    rows = {_key(row): row for row in load(file)}
+    found = 0
+    for folder in folders:
+        for path in sorted(Path(folder).glob("tillage/*/result.json")):
+            result = read_json(path)
+            if result["verdict"] == "error":
+                raise ReportError(f"{path}: the run ended as error and says nothing")
+            row = entry(study, result)
+            rows[_key(row)] = row
+            found += 1
+    if not found:
+        raise ReportError(f"no result of the family tillage below {', '.join(map(str, folders))}")
+    text = json.dumps({"schema": 1, "runs": sorted(rows.values(), key=_key)}, indent=1)
+    (file or FILE).write_text(text + "\n", encoding="utf-8")
+    return found
+
+
+def _number(row, name):
+    metric = row["metrics"].get(name)
+    return metric["value"] if metric else None
+
+
+def yields(row):
+    return (_number(row, "plastic_strain") or 0.0) > 0.0
+
+
+def breaks(row):
+    return (_number(row, "failed_particles") or 0.0) > 0.0
+
+
+def threshold(rows, by, happens):
+    """(largest input at which it does not happen, smallest at which it does), either None; None both where inputs cross."""
+    no, yes = [r[by] for r in rows if not happens(r)], [r[by] for r in rows if happens(r)]
+    low, high = max(no, default=None), min(yes, default=None)
+    return (low, high) if low is None or high is None or low < high else (None, None)
+
+
+def page(rows, today=None):
+    """What the page shows: a group a study, its rows with their age, and for the first two their thresholds."""
+    today = today or datetime.date.today()
+    groups = []
+    for name, title in STUDIES.items():
+        own = [dict(r, age=(today - datetime.date.fromisoformat(r["date"])).days) for r in rows if r["study"] == name]
+        if not own:
+            continue
+        by = name if name != "across" else None
+        same = {}
+        for r in own:
+            same.setdefault((r["tool"], r["free_length"], r["friction"]), []).append(r)
+        limits = [{"tool": key[0], "free_length": key[1], "friction": key[2],
+                   "yields": threshold(of, by, yields), "breaks": threshold(of, by, breaks)}
+                  for key, of in same.items()] if by else []
+        groups.append({"name": name, "title": title, "rows": own, "limits": limits})
+    return groups
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="python3 -m reports.studies", description=__doc__)
+    parser.add_argument("study", choices=STUDIES)
+    parser.add_argument("runs", type=Path, nargs="+", metavar="RUNDIR")
+    arguments = parser.parse_args()
+    try:
+        print(f"{store(arguments.study, arguments.runs)} stored in {FILE}")
+    except (ReportError, OSError, KeyError) as error:
+        print(f"reports.studies: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
