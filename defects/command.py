@@ -204,9 +204,9 @@ def hunt(arguments, wanted):
             else:
                 state.past.learn(defect, fate)
             found.append(fate)
+            if arguments.record:   # at once: a hunt may be ended before its end
+                record.write(record.merged(record.read(), [fate], state.all, state.tiers))
             print(cut(f"{i:>3}/{len(wanted)}  {line(fate)}", 130), flush=True)
-        if arguments.record:
-            record.write(record.merged(record.read(), found, state.all, state.tiers))
         write_whole(arguments.out / "kills.json", json.dumps(matrix(found, wanted, state)) + "\n")
     from reports.kills import build
     print(summary(found, wanted, state.tiers))

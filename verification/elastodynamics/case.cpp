@@ -18,6 +18,7 @@ Family elastodynamics_family() {
   family.add("order_in_time", elastodynamic_cases::order_in_time);
   family.add("rubber_rings", elastodynamic_cases::rubber_rings);
   family.add("simple_shear", elastodynamic_cases::simple_shear);
+  family.add("passing_rows", elastodynamic_cases::passing_rows);
   family.add("gravity_column", elastodynamic_cases::gravity_column);
   return family;
 }

@@ -19,6 +19,7 @@ Problem spinning_square(const Parameters& input);
 Problem order_in_time(const Parameters& input);
 Problem rubber_rings(const Parameters& input);
 Problem simple_shear(const Parameters& input);
+Problem passing_rows(const Parameters& input);
 Problem gravity_column(const Parameters& input);
 
 /// Elastic material of a case: density, young_modulus, poisson_ratio.

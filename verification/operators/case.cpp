@@ -15,6 +15,8 @@ Family operators_family() {
   family.add("conservation", operator_cases::conservation);
   family.add("compressed_block", operator_cases::compressed_block);
   family.add("stress_power", operator_cases::stress_power);
+  family.add("deformed_block", operator_cases::deformed_block);
+  family.add("stressed_layers", operator_cases::stressed_layers);
   return family;
 }
 

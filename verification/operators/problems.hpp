@@ -13,5 +13,7 @@ Problem rigid_and_shear(const Parameters& input);        ///< strain rate and sp
 Problem conservation(const Parameters& input);           ///< momentum, angular momentum and power of random particles
 Problem compressed_block(const Parameters& input);       ///< three ways to a density, and the one that misses
 Problem stress_power(const Parameters& input);           ///< the energy that a uniform deformation does
+Problem deformed_block(const Parameters& input);         ///< the undeformed body's sums, and what holds zigzags, on random particles
+Problem stressed_layers(const Parameters& input);        ///< what boundary layers carry beside evenly stressed soil
 
 }  // namespace furrow::operator_cases
