@@ -51,6 +51,27 @@ def moved(x):
     return "no number" if x == "infinite" else f"{numbers.number(100.0 * x, 2)}\u202f%"
 
 
+@dataclass(frozen=True)
+class Rate:
+    """How many of the defects a tier kills, as far as it was run."""
+    killed: int    # by the truth
+    seen: int      # at all
+    planted: int
+    ran: int       # how many met the cases of this very tier: the others had been killed below it, or wait
+    waiting: int   # alive, and not run at this tier
+
+    @property
+    def known(self):
+        """Whether anything is known of the tier that the one below it has not said."""
+        return self.ran > 0 or self.waiting == 0
+
+    def words(self, n):
+        """`n` defects as a share of those planted; a bound where some that are alive were not run."""
+        if not self.known or not self.planted:
+            return "not run"
+        return f"{'at least ' if self.waiting else ''}{n}, {numbers.number(100.0 * n / self.planted, 3)} %"
+
+
 @dataclass
 class Record:
     """What is known of the defects that stand in the repository now."""
@@ -71,13 +92,14 @@ class Record:
         return [e for e in self.entries if e["state"] == "passed" or e["kinds"]]
 
     def rate(self, tier):
-        """(killed by the truth, seen at all, planted, of them alive and not yet run) at this tier and those below it."""
+        """Rate at this tier and those below it, which it contains."""
         def within(e):
             return TIERS.index(e["tier"]) <= TIERS.index(tier)
         killed = [e for e in self.wrong if e["state"] == "killed" and within(e)]
         changed = [e for e in self.wrong if e["state"] == "changed" and within(e)]
+        alive = [e for e in self.wrong if TIERS.index(e["tier"]) >= TIERS.index(tier)]
         waiting = [e for e in self.wrong if e["state"] in ALIVE and TIERS.index(e["tier"]) < TIERS.index(tier)]
-        return len(killed), len(killed) + len(changed), len(self.wrong), len(waiting)
+        return Rate(len(killed), len(killed) + len(changed), len(self.wrong), len(alive), len(waiting))
 
     @property
     def alive(self):

@@ -53,11 +53,18 @@ def test_the_report_knows_rates_age_and_what_has_changed(tmp_path):
     record.write({n: record.entry_of(fate(made[n], *seen), made[n], TIERS) for n, seen in fates.items()}, path)
     (folder / "other.patch").write_text(HEAD.replace("a sign", "another wrong"))
     found = page.load(path, folder, datetime.date.today() + datetime.timedelta(days=3))
-    assert found.rate("smoke") == (1, 1, 3, 0) and found.rate("quick") == (2, 2, 3, 0) and found.rate("nightly") == (2, 2, 3, 1)
+    assert found.rate("smoke") == page.Rate(1, 1, 3, 3, 0) and found.rate("quick") == page.Rate(2, 2, 3, 2, 0)
+    assert found.rate("nightly") == page.Rate(2, 2, 3, 0, 1)
     assert found.unknown == ["new"] and [e["name"] for e in found.entries if e["stale"]] == ["other"]
     assert {e["age"] for e in found.entries} == {3} and found.entries[0]["name"] == "alive"
     path.write_text("{")
     assert "kills.json" in page.load(path, folder).fault and not page.load(tmp_path / "none.json", folder)
+
+
+def test_a_tier_at_which_nothing_was_run_has_no_rate():
+    assert page.Rate(2, 2, 3, 0, 1).words(2) == "not run"
+    assert page.Rate(2, 2, 4, 1, 1).words(2) == "at least 2, 50 %" and page.Rate(2, 2, 4, 2, 0).words(2) == "2, 50 %"
+    assert page.Rate(4, 4, 4, 0, 0).words(4) == "4, 100 %"   # nothing was left to run
 
 
 def test_the_hash_of_the_report_is_that_of_the_hunt():
