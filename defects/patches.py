@@ -31,7 +31,7 @@ class Defect:
     subtle: bool
     source: str
     equivalent: str
-    hash: str        # of the whole file
+    hash: str        # of the difference: its head may be put better
     right: bool = False
 
     reach: int = 0   # how far it reaches: 0 sources alone, 1 a header, 2 what is no source, such as the build itself
@@ -66,7 +66,8 @@ def read(path):
         raise GateError(f"{path}: an empty line and 'diff --git ...' come after the head")
     return Defect(path.stem, path, fields["Wrong"], tuple(m.strip() for m in fields["Module"].split(",")),
                   fields["Subtle"] == "yes",
-                  fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(text.encode()).hexdigest(), right, reach_of(difference))
+                  fields.get("Source", ""), fields.get("Equivalent", ""), hashlib.sha256(difference.encode()).hexdigest(), right,
+                  reach_of(difference))
 
 
 def reach_of(difference):

@@ -106,6 +106,11 @@ class Record:
         return [e for e in self.wrong if e["state"] in ALIVE]
 
 
+def hash_of(patch):
+    """Of the difference alone, which comes after the head and an empty line."""
+    return hashlib.sha256(patch.partition("\n\n")[2].encode()).hexdigest()
+
+
 def load(file=RECORD, folder=PATCHES, today=None):
     """Record of a repository; empty without a file, with `fault` where it cannot be read."""
     if not file.exists():
@@ -113,7 +118,7 @@ def load(file=RECORD, folder=PATCHES, today=None):
     try:
         data = read_json(file)["defects"]
         today = today or datetime.date.today()
-        hashes = {p.stem: hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(folder.glob("*.patch"))}
+        hashes = {p.stem: hash_of(p.read_text(encoding="utf-8")) for p in sorted(folder.glob("*.patch"))}
         entries = [entry | {"name": name, "stale": hashes[name] != entry["hash"],
                             "age": (today - datetime.date.fromisoformat(entry["date"])).days}
                    for name, entry in data.items() if name in hashes]

@@ -1,7 +1,6 @@
 """What is known of each defect, and the page that shows it."""
 
 import datetime
-import hashlib
 import json
 
 import pytest
@@ -41,8 +40,9 @@ def test_a_small_tier_does_not_forget_what_a_larger_one_found(tmp_path):
 def test_only_the_very_patch_is_dead(tmp_path):
     one = defect(tmp_path)
     known = record.entry_of(fate(one, kill("quick")), one, TIERS)
+    assert record.is_dead(known, defect(tmp_path, HEAD.replace("a sign", "the same, in other words")), "quick")
     assert record.is_dead(known, one, "quick") and not record.is_dead(known, one, "smoke") and not record.is_dead(None, one, "quick")
-    assert not record.is_dead(known, defect(tmp_path, HEAD.replace("a sign", "another")), "quick")
+    assert not record.is_dead(known, defect(tmp_path, HEAD.replace("+b", "+c")), "quick")
 
 
 def test_the_report_knows_rates_age_and_what_has_changed(tmp_path):
@@ -51,7 +51,7 @@ def test_the_report_knows_rates_age_and_what_has_changed(tmp_path):
     made = {n: defect(folder, HEAD, n) for n in ("dead", "later", "alive", "other", "new")}
     fates = {"dead": (kill(),), "later": (kill("smoke", ""), kill("quick")), "alive": (kill("smoke", ""),), "other": (kill(),)}
     record.write({n: record.entry_of(fate(made[n], *seen), made[n], TIERS) for n, seen in fates.items()}, path)
-    (folder / "other.patch").write_text(HEAD.replace("a sign", "another wrong"))
+    (folder / "other.patch").write_text(HEAD.replace("+b", "+c"))
     found = page.load(path, folder, datetime.date.today() + datetime.timedelta(days=3))
     assert found.rate("smoke") == page.Rate(1, 1, 3, 3, 0) and found.rate("quick") == page.Rate(2, 2, 3, 2, 0)
     assert found.rate("nightly") == page.Rate(2, 2, 3, 0, 1)
@@ -69,5 +69,12 @@ def test_a_tier_at_which_nothing_was_run_has_no_rate():
 
 def test_the_hash_of_the_report_is_that_of_the_hunt():
     one = patches.read_all()[0]
-    assert hashlib.sha256(one.path.read_bytes()).hexdigest() == one.hash
+    assert page.hash_of(one.path.read_text()) == one.hash
     assert json.loads(json.dumps(one.modules)) == list(one.modules)
+
+
+def test_no_defect_is_called_subtle_that_moved_a_smoke_metric_by_more_than_5_percent():
+    known = record.read()
+    assert [d.name for d in patches.read_all() if d.subtle and d.name in known and (known[d.name].smoke == "infinite"
+                                                                                     or (known[d.name].smoke or 0.0) > 0.05)] == []
+    assert sum(d.subtle for d in patches.read_all()) >= 20
