@@ -13,8 +13,10 @@ SPREADS = 3.0
 # What round-off alone may leave: a thousand units in the last place, as for observed orders.
 ROUND_OFF = 1000.0 * sys.float_info.epsilon
 # Nor does a move matter of which a million would not cross the band, or not double the number where there is no band: another start
-# of an iteration that ends at the same root.
+# of an iteration that ends at the same root. But where a number is right to round-off behind a wide band, an error that grows more
+# than a hundredfold is no round-off any more.
 SHARE = 1e-6
+GROWTH = 100.0
 # A reference's uncertainty covers what lies within two standard uncertainties of it.
 COVERAGE = 2.0
 
@@ -46,11 +48,14 @@ def allowance(value, reference, unit, spread):
 
 
 def _share(accepted, norm):
-    """The part of a metric's band that no gate could ever see, as a number of the metric."""
+    """The part of a metric's band that no gate could ever see, as a number of the metric; of an error no more than it may grow by."""
     reference = abs(accepted.reference or 0.0)
     if accepted.band is None or not all(isinstance(end, (int, float)) and math.isfinite(end) for end in accepted.band):
-        return SHARE * max(reference, abs(accepted.value))
-    return SHARE * (accepted.band[1] - accepted.band[0]) * (reference if norm.split()[-1:] == ["relative"] else 1.0)
+        share = SHARE * max(reference, abs(accepted.value))
+    else:
+        share = SHARE * (accepted.band[1] - accepted.band[0]) * (reference if norm.split()[-1:] == ["relative"] else 1.0)
+    # a value may meet its reference by chance; an error that is nought is one by design
+    return min(share, GROWTH * abs(accepted.value)) if truth_of(accepted.reference, norm) == 0.0 else share
 
 
 def truth_of(reference, norm):

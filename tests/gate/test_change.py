@@ -34,6 +34,13 @@ def test_a_millionth_of_the_band_is_within(norm, width):
     assert judged(3.0 + 2.9e-6, 3.0, norm, 3.0, band=None).kind == WITHIN
 
 
+def test_an_error_of_round_off_behind_a_wide_band_may_grow_a_hundredfold():
+    assert judged(9e-11, 1e-12, band=(-0.005, 0.005)).kind == WITHIN
+    assert judged(2e-10, 1e-12, band=(-0.005, 0.005)).kind == MOVED
+    assert judged(1e-5 + 9e-9, 1e-5, band=(-0.005, 0.005)).kind == WITHIN   # a millionth of the band, where that is less
+    assert judged(1e-5 + 2e-8, 1e-5, band=(-0.005, 0.005)).kind == MOVED
+
+
 def test_without_measured_noise_round_off_alone_is_within():
     assert judged(1.0 + 0.5 * ROUND_OFF).kind == WITHIN
     assert judged(1.0 + 2.0 * ROUND_OFF).kind == MOVED
