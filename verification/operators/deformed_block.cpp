@@ -51,7 +51,8 @@ Body<2> block(const Setup& s, Frame frame) {
   body.scheme.kernel = *kernel_by_name(s.kernel);
   body.scheme.smoothing_ratio = s.ratio;
   body.scheme.frame = frame;
-  if (frame == Frame::reference) body.scheme.correction = Correction::linear;
+  body.scheme.viscosity.reset();
+  body.scheme.correction = Correction::linear;
   body.add(square_lattice<2>({s.cells, s.cells}, s.spacing, false).position);
   return body;
 }

@@ -1,5 +1,6 @@
 // Boundary layers beside a block of soil whose stress is the same everywhere: what the layers' particles carry is then known, and
 // the force on each layer is a sum over its pairs with soil alone.
+#include <cmath>
 #include <string>
 
 #include "harness/scheme_input.hpp"
@@ -11,7 +12,7 @@
 namespace furrow::operator_cases {
 namespace {
 
-/// Force on one layer from the soil: sum over pairs V^2 (sigma_w + sigma_j) grad_w W. And the sum of the pairs' magnitudes.
+/// Force on one layer from the soil: sum over pairs V^2 (sigma_w + sigma_j) grad_w W. And the sum of the magnitudes.
 std::pair<Vector<2>, double> force_on(const Body<2>& body, const BoundaryLayer<2>& layer, const exact::Kernel& kernel) {
   const Particles<2>& p = body.particles;
   const double h = body.smoothing_length(), V = body.spacing * body.spacing;
@@ -24,9 +25,10 @@ std::pair<Vector<2>, double> force_on(const Body<2>& body, const BoundaryLayer<2
       const Vector<2> x = p.position[w] - p.position[j];
       const double r = x.norm();
       if (r >= kernel.support() * h) continue;
-      const Matrix<2> both = (p.stress[w] + p.stress[j]).topLeftCorner<2, 2>();
-      const Vector<2> f = V * V * kernel.derivative(r, h) / r * (both * x);
-      force += f, size += f.norm();
+      const Matrix<2> on_w = p.stress[w].topLeftCorner<2, 2>(), on_j = p.stress[j].topLeftCorner<2, 2>();
+      const double slope = V * V * kernel.derivative(r, h);
+      force += slope / r * ((on_w + on_j) * x);
+      size += std::abs(slope) * (on_w.norm() + on_j.norm());   // either alone: of a mirrored shear they are opposite
     }
   }
   return {force, size};
@@ -58,6 +60,8 @@ Problem stressed_layers(const Parameters& input) {
       body.spacing = dx;
       body.scheme.kernel = *kernel_by_name(name);
       body.scheme.smoothing_ratio = ratio;
+      body.scheme.correction = Correction::none;
+      body.scheme.viscosity.reset();
       const double edge = cells * dx;
       body.add(rectangle({0.0, 0.0}, edge, edge, dx));
       add_flat_layer(body, "floor", {0.0, 0.0}, {edge, 0.0}, Slip::free);
