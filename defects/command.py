@@ -35,6 +35,8 @@ def parser():
     command.add_argument("--only", action="append", default=[], metavar="GLOB", help="only defects whose name matches")
     command.add_argument("--tier", choices=TIERS, default="nightly", help="largest tier to run (default: nightly)")
     command.add_argument("--cases", action="append", default=[], metavar="GLOB", help="only cases whose id matches")
+    command.add_argument("--alone", action="store_true",
+                         help="compile each of them alone: less work than one program with all where there are few")
     command.add_argument("--alive", action="store_true", help="only defects that reference/kills.json does not know as killed")
     command.add_argument("--whole", action="store_true",
                          help="run all that the smoke tier has on subtle defects, to see that they are")
@@ -81,7 +83,7 @@ def check(wanted):
 class Hunt:
     def __init__(self, arguments):
         self.out, self.resume, self.jobs, self.only = arguments.out, arguments.resume, arguments.jobs, arguments.cases
-        self.whole = arguments.whole
+        self.whole, self.apart = arguments.whole, arguments.alone
         self.tiers = TIERS[:TIERS.index(arguments.tier) + 1]
         self.switched = SwitchedTree(arguments.commit, arguments.jobs)
         self.alone = Tree(arguments.commit, arguments.jobs)
@@ -98,7 +100,9 @@ class Hunt:
         return ["--no-report", "--quiet"] + (["--jobs", str(self.jobs)] if self.jobs else [])
 
     def prepare(self, wanted):
-        """Plants what can be switched."""
+        """Plants what can be switched, unless each is to be compiled alone."""
+        if self.apart:
+            return
         self.switched.prepare()
         names = {d.name for d in wanted if not d.right}
         if why := self.switched.plant({n: d for n, d in enumerate(self.all, 1) if d.name in names}):
