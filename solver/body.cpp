@@ -165,7 +165,7 @@ void Body<Dim>::build_reference() {
   for (std::size_t i = 0; i < p.position.size(); ++i) volume_[i] = p.mass[i] / rho_0;
   velocity_gradient_.assign(n, Matrix<Dim>::Zero());
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
-  cut_pairs<Dim>(neighbours_, p.reference_position, crack_facets(p, spacing));   // those of a run that goes on
+  cut_cracks(neighbours_, p, spacing);   // those of a run that goes on
   make_correction();
 }
 
@@ -179,7 +179,7 @@ void Body<Dim>::open_cracks() {
       opened = true;
     }
   if (!opened) return;
-  cut_pairs<Dim>(neighbours_, p.reference_position, crack_facets(p, spacing));
+  cut_cracks(neighbours_, p, spacing);
   make_correction();
 }
 

@@ -33,4 +33,16 @@ std::vector<CrackFacet<Dim>> crack_facets(const Particles<Dim>& particles, doubl
 template <int Dim>
 void cut_pairs(NeighbourList& list, std::span<const Vector<Dim>> position, const std::vector<CrackFacet<Dim>>& facets);
 
+/// Failed particles that see none but failed ones are debris: too few to say what strains them. They see no one any more, nor are they
+/// seen.
+template <int Dim>
+void drop_debris(NeighbourList& list, const Particles<Dim>& particles);
+
+/// Both, for all failed particles in the reference frame.
+template <int Dim>
+void cut_cracks(NeighbourList& list, const Particles<Dim>& particles, double spacing) {
+  cut_pairs<Dim>(list, particles.reference_position, crack_facets(particles, spacing));
+  drop_debris<Dim>(list, particles);
+}
+
 }  // namespace furrow

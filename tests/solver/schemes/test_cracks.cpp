@@ -84,6 +84,25 @@ TEST_CASE("a list is cut at the facets and keeps its other pairs in their order"
   CHECK(gone > 10);
 }
 
+TEST_CASE("failed particles that see none but failed ones are debris", "[cracks]") {
+  const auto simulation = strip(true);
+  Body<2>& body = simulation->body;
+  body.refresh_neighbours(true);
+  Particles<2>& p = body.particles;
+  // Columns 14 and 15 fail: cracks before and behind column 15 leave it on its own.
+  for (const int column : {14, 15})
+    for (int row = 0; row < 4; ++row) p.crack_normal[body.index_of(id_at(body, column, row))] = {1.0, 0.0};
+  NeighbourList list = body.neighbours();
+  cut_pairs<2>(list, p.reference_position, crack_facets(p, dx));
+  const std::size_t alone = body.index_of(id_at(body, 15, 1)), behind = body.index_of(id_at(body, 14, 1));
+  REQUIRE(list.count[alone] == 3);   // the rest of its column
+  drop_debris<2>(list, p);
+  CHECK(list.count[alone] == 0);
+  CHECK(list.count[behind] > 5);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (const std::int32_t j : list.row(i)) CHECK(static_cast<std::size_t>(j) != alone);
+}
+
 TEST_CASE("a strip whose section has failed parts, and does not without cracks", "[cracks]") {
   const bool cracks = GENERATE(false, true);
   const auto s = strip(cracks);
