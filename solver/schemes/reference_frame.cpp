@@ -60,11 +60,17 @@ double largest_frequency(const Stencil<Dim>& reference, const Particles<Dim>& p,
   std::vector<Matrix<Dim>> gradient(n);
   std::vector<MomentumPower> power(n);
   MomentumWorkspace<Dim> workspace;
+  // Noise of the place, odd about the planes through the origin: a body and its half behind a plane of symmetry take the same
+  // steps, whatever the order of their particles. Knuth's generator, the same on every machine.
   for (std::size_t i = 0; i < n; ++i) {
-    std::uint64_t noise = static_cast<std::uint64_t>(p.id[i]) + 1;
+    const Vector<Dim>& X = reference.position[i];
+    std::uint64_t noise = 0;
+    const auto stir = [&noise](std::uint64_t key) { noise = (noise ^ key) * 6364136223846793005U + 1442695040888963407U; };
+    for (int k = 0; k < Dim; ++k) stir(static_cast<std::uint64_t>(std::llround(std::abs(X[k]) / reference.smoothing_length * 1024.0)));
     for (int k = 0; k < Dim; ++k) {
-      noise = noise * 6364136223846793005U + 1442695040888963407U;   // Knuth's generator: the same on every machine
-      u[i][k] = static_cast<double>(noise >> 33) * 0x1p-30 - 1.0;
+      stir(0);
+      const double a = static_cast<double>(noise >> 33) * 0x1p-30 - 1.0;
+      u[i][k] = X[k] < 0.0 ? -a : a;
     }
   }
   const auto view = correction.empty() ? CorrectionView<Dim>{} : CorrectionView<Dim>{correction};
