@@ -40,7 +40,8 @@ def entry(study, result):
            "free_length": _si(tool["free_length"]), "across": tool["across"], "tool": tool["material"],
            "friction": p.get("friction", 0.0), "cohesion": _cohesion(p),
            "overlap": _si(p["stone"]["overlap"]) if "stone" in p else None,
-           "verdict": result["verdict"], "cpu": result["cost"]["cpu_s"], "commit": result["provenance"]["commit"], "dirty": result["provenance"]["dirty"],
+           "verdict": result["verdict"], "cpu": result["cost"]["cpu_s"], "commit": result["provenance"]["commit"],
+           "dirty": result["provenance"]["dirty"],
            "date": result["provenance"]["started"][:10], "metrics": {}}
     for m in result["metrics"]:
         if m["name"] in METRICS and m.get("value") is not None:
