@@ -378,6 +378,7 @@ TEST_CASE("The largest frequency of a periodic lattice is that of a plane wave",
   body.spacing = dx;
   body.scheme.frame = Frame::reference;
   body.scheme.kernel = WendlandC2{};
+  body.scheme.correction = Correction::none;
   body.scheme.smoothing_ratio = h / dx;
   body.scheme.viscosity.reset();
   body.box.length = Vector<2>::Constant(cells * dx);
