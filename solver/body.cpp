@@ -1,14 +1,12 @@
-// A body but for what accelerates it, which is in body_forces.cpp.
+// A body but for what accelerates it (body_forces.cpp) and for the reference frame (body_reference.cpp).
 #include "solver/body.hpp"
 
 #include <Eigen/LU>
 
 #include "solver/particles/ordered_sum.hpp"
 #include "solver/materials/parts.hpp"
-#include "solver/schemes/cracks.hpp"
 #include "solver/schemes/density.hpp"
 #include "solver/schemes/kernel_correction.hpp"
-#include "solver/schemes/reference_frame.hpp"
 #include "solver/schemes/velocity_gradient.hpp"
 
 namespace furrow {
@@ -147,40 +145,6 @@ void Body<Dim>::find_neighbours() {
   if (scheme.correction == Correction::quadratic) quadratic_.resize(n);
   ++builds_;
   if (in_reference_frame()) build_reference();
-}
-
-template <int Dim>
-void Body<Dim>::build_reference() {
-  has_run(Module::reference_frame);
-  Particles<Dim>& p = particles;
-  const std::size_t n = p.size();
-  const double rho_0 = std::visit([](const auto& law) { return law.initial_state().density; }, material);
-  images.fill(p.mass);
-  images.fill_positions(p.reference_position);
-  undeformed_.id.assign(n, 0);
-  undeformed_.mass = p.mass;
-  undeformed_.density.assign(p.position.size(), rho_0);
-  undeformed_.sound_speed.assign(p.position.size(), 0.0);   // nothing viscous is summed over pairs here
-  undeformed_.stress.assign(n, Tensor::Zero());
-  for (std::size_t i = 0; i < p.position.size(); ++i) volume_[i] = p.mass[i] / rho_0;
-  velocity_gradient_.assign(n, Matrix<Dim>::Zero());
-  gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
-  cut_cracks(neighbours_, p, spacing);   // those of a run that goes on
-  make_correction();
-}
-
-template <int Dim>
-void Body<Dim>::open_cracks() {
-  Particles<Dim>& p = particles;
-  bool opened = false;
-  for (std::size_t i = 0; i < p.size(); ++i)
-    if (p.damage[i] >= 1.0 && p.crack_normal[i].isZero(0.0)) {
-      p.crack_normal[i] = most_stretched<Dim>(p.deformation_gradient[i]);
-      opened = true;
-    }
-  if (!opened) return;
-  cut_cracks(neighbours_, p, spacing);
-  make_correction();
 }
 
 template <int Dim>

@@ -69,7 +69,7 @@ class Body {
   /// comes back as it was.
   void accelerate(double time, std::span<Vector<Dim>> velocity);
 
-  /// kappa = omega h/c_s of the body's largest frequency omega, in the reference frame (reference_wave_number); c_s of its most
+  /// kappa = omega h/c_s of the body's largest frequency omega, in the reference frame (largest_frequency); c_s of its most
   /// squeezed particle. Changes nothing that a later step sees.
   double largest_wave_number();
 

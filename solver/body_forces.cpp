@@ -5,7 +5,6 @@
 #include "solver/modules.hpp"
 #include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/hourglass.hpp"
-#include "solver/schemes/reference_frame.hpp"
 
 namespace furrow {
 
@@ -105,49 +104,6 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
 }
 
 template <int Dim>
-void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
-  Particles<Dim>& p = particles;
-  const auto n = static_cast<std::int64_t>(p.size());
-  viscous_pressure_.assign(p.size(), 0.0);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double d = velocity_gradient_[i].trace();
-    if (scheme.bulk_viscosity && d < 0.0) {
-      // Over the distance of squeezed particles as it is now: over the first one, viscosity would be stiffer than the material.
-      const double length = spacing * p.sound_speed[i] / reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]);
-      viscous_pressure_[i] = bulk_viscosity(*scheme.bulk_viscosity, d, p.density[i], p.sound_speed[i], length);
-    }
-    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - viscous_pressure_[i] * Matrix<Dim>::Identity();
-    undeformed_.stress[i].template topLeftCorner<Dim, Dim>() =
-        first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
-  }
-  momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
-  for_all(p.size(), [&](std::size_t i) { power_[i].viscous = -viscous_pressure_[i] * velocity_gradient_[i].trace() / p.density[i]; });
-  if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
-    images.fill_tensors(std::span(p.deformation_gradient));
-    images.fill_tensors(std::span(gradient_rate_));
-    reference_hourglass<Dim>(stencil(), p, volume_, velocity, gradient_rate_, scheme.hourglass, scheme.hourglass_damping,
-                             p.acceleration, power_);
-  }
-}
-
-template <int Dim>
-double Body<Dim>::largest_wave_number() {
-  if (!in_reference_frame() || scheme.correction == Correction::quadratic)
-    throw std::invalid_argument("the largest frequency is there for the reference frame with the correction none or linear");
-  Particles<Dim>& p = particles;
-  const auto n = static_cast<std::int64_t>(p.size());
-  double fastest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : fastest)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    fastest = std::max(fastest, reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]));
-  }
-  return largest_frequency<Dim>(stencil(), p, volume_, linear_, undeformed_) * smoothing_length() / fastest;
-}
-
-template <int Dim>
 LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
   const std::size_t n = particles.size();
   soil_volume_.resize(particles.position.size());
@@ -223,8 +179,6 @@ void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
 
 #define FURROW_INSTANTIATE(Dim)                                                                \
   template void Body<Dim>::accelerate(double, std::span<Vector<Dim>>);                         \
-  template void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>>);              \
-  template double Body<Dim>::largest_wave_number();                                            \
   template LayerSurroundings<Dim> Body<Dim>::layer_surroundings();                             \
   template void Body<Dim>::lend_velocities(std::span<Vector<Dim>>, bool);                      \
   template void Body<Dim>::return_velocities(std::span<Vector<Dim>>) const;                    \
