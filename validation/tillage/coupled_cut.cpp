@@ -205,7 +205,7 @@ double mean_over(const CoupledHistory& h, const std::vector<double>& column, dou
 std::array<Stage, 5> stages_of(const CoupledHistory& h, double filter_time) {
   StageDefinition definition;
   definition.filter = filter_time;
-  return force_stages({h.time, h.whole, h.plastic_strain, h.softened, h.failed}, definition);
+  return force_stages({h.time, h.whole, h.deflection, h.plastic_strain, h.softened, h.failed}, definition);
 }
 
 void stage_figure(Run& run, const CoupledHistory& h, const std::array<Stage, 5>& stages, double filter_time) {

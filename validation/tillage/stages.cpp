@@ -22,13 +22,14 @@ std::vector<double> smoothed(const std::vector<double>& time, const std::vector<
 
 std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& d) {
   const std::size_t n = h.time.size();
-  if (n < 3 || h.force.size() != n || h.plastic_strain.size() != n || h.softened.size() != n || h.failed.size() != n)
+  if (n < 3 || h.force.size() != n || h.deflection.size() != n || h.plastic_strain.size() != n || h.softened.size() != n ||
+      h.failed.size() != n)
     throw std::invalid_argument("stages need three rows or more, and as many of each column");
   for (std::size_t k = 1; k < n; ++k)
     if (!(h.time[k] > h.time[k - 1])) throw std::invalid_argument("times of a force history must rise");
   if (!(d.filter > 0.0)) throw std::invalid_argument("the filter of force stages must have a positive width");
 
-  const std::vector<double> F = smoothed(h.time, h.force, d.filter);
+  const std::vector<double> F = smoothed(h.time, h.force, d.filter), w = smoothed(h.time, h.deflection, d.filter);
   std::array<Stage, 5> stages;
   constexpr std::string_view names[] = {"rise", "yield", "hardening", "peak", "decline"};
   for (std::size_t s = 0; s < 5; ++s) stages[s].name = names[s];
@@ -63,17 +64,19 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
   } else if (!rise.present) {
     yield.reason = hardening.reason = "no rise before it";
   } else {
-    const double took = rise.end - rise.begin, slope = (rise.force_end - rise.force_begin) / took;
-    const std::size_t later = std::min(
-        n - 1, first_where(plastic, [&](std::size_t k) { return h.time[k] >= rise.end + std::max(0.5 * took, 3.0 * d.filter); }));
-    const double then = later > plastic ? (F[later] - F[plastic]) / (h.time[later] - h.time[plastic]) : slope;
-    if (then < d.slope_drop * slope) {
+    const double grew = w[plastic] - w[begin], stiffness = (F[plastic] - F[begin]) / grew;
+    const std::size_t later = first_where(plastic, [&](std::size_t k) {
+      return w[k] >= w[plastic] + 0.5 * grew && h.time[k] >= h.time[plastic] + 3.0 * d.filter;
+    });
+    if (!(grew > 0.0) || later == n) {
+      yield.reason = "the tool does not bend on";
+    } else if ((F[later] - F[plastic]) / (w[later] - w[plastic]) < d.slope_drop * stiffness) {
       const auto lowest = static_cast<std::size_t>(
           std::min_element(F.begin() + static_cast<std::ptrdiff_t>(plastic), F.begin() + static_cast<std::ptrdiff_t>(later) + 1) -
           F.begin());
       set(yield, plastic, lowest > plastic ? lowest : later);
     } else {
-      yield.reason = "the force climbs on as before";
+      yield.reason = "the tool is as stiff as before";
     }
   }
 
@@ -93,10 +96,10 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
   }
   const std::size_t fallen = first_where(highest, [&](std::size_t k) { return F[k] < d.fall * F[highest]; });
   const std::size_t begun = first_where(0, [&](std::size_t k) { return h.softened[k] > 0.0; });
-  // Where F last was within 5 % of its greatest: from there on it falls for good.
+  // Where F was last held: from there on it falls for good.
   std::size_t edge = highest;
   for (std::size_t k = highest; k < n; ++k)
-    if (F[k] >= 0.95 * F[highest]) edge = k;
+    if (F[k] >= d.held * F[highest]) edge = k;
   const bool caused = begun < n && h.time[begun] <= h.time[edge] + d.filter;
   if (caused && cracked <= fallen) set(peak, highest, edge);
   else peak.reason = caused ? "the force has fallen before anything has failed" : "the force falls before fracture begins";

@@ -22,7 +22,8 @@ double between(double t, const std::vector<std::pair<double, double>>& points) {
   return points.back().second;
 }
 
-/// 10 ms in steps of 10 us: contact at 0.2 ms, yield at 1.5, lowest at 2, peak with fracture at 7, down to a quarter at 8.
+/// 10 ms in steps of 10 us: contact at 0.2 ms, yield at 1.5, lowest at 2, peak with fracture at 7, down to a quarter at 8. The
+/// tool's end falls back at 1.5 m/s.
 ForceHistory whole() {
   ForceHistory h;
   for (int k = 0; k <= 1000; ++k) {
@@ -30,6 +31,7 @@ ForceHistory whole() {
     h.time.push_back(t);
     h.force.push_back(
         between(t, {{0.0, 0.0}, {0.2e-3, 0.0}, {1.5e-3, 10e3}, {2e-3, 9e3}, {7e-3, 18e3}, {8e-3, 4.5e3}, {10e-3, 4e3}}));
+    h.deflection.push_back(1.5 * std::max(0.0, t - 0.2e-3));
     h.plastic_strain.push_back(t < 1.5e-3 ? 0.0 : 200.0 * (t - 1.5e-3));
     h.failed.push_back(t < 6.9e-3 ? 0.0 : 1.0 + std::floor(1e4 * (t - 6.9e-3)));
     h.softened.push_back(h.failed.back());
@@ -111,6 +113,39 @@ TEST_CASE("plastic strain that the force does not show is no yield", "[stages]")
   ForceHistory h = whole();
   for (std::size_t k = 150; k <= 700; ++k) h.force[k] = 10e3 * (h.time[k] - 0.2e-3) / 1.3e-3;
   CHECK_FALSE(stage(force_stages(h, definition), "yield").present);
+}
+
+TEST_CASE("soil that builds up hides a yield from the force over time, not from the force over deflection", "[stages]") {
+  ForceHistory h = whole();
+  for (std::size_t k = 150; k <= 700; ++k) {
+    h.force[k] = 10e3 + 7e6 * (h.time[k] - 1.5e-3);   // of 7.7e6 N/m/s before: over time nothing halves
+    h.deflection[k] = 1.95e-3 + 4.0 * (h.time[k] - 1.5e-3);
+  }
+  for (std::size_t k = 701; k <= 1000; ++k) h.deflection[k] = h.deflection[700];
+  CHECK(stage(force_stages(h, definition), "yield").present);
+}
+
+TEST_CASE("a chip that takes the force from a tool as stiff as before is no yield, whatever has flowed a little", "[stages]") {
+  ForceHistory h = whole();
+  for (std::size_t k = 0; k <= 1000; ++k) {
+    h.force[k] = between(h.time[k], {{0.0, 0.0}, {0.2e-3, 0.0}, {1.5e-3, 10e3}, {2e-3, 5e3}, {7e-3, 18e3}, {10e-3, 18e3}});
+    h.deflection[k] = 2e-7 * h.force[k];
+  }
+  CHECK(stage(force_stages(h, definition), "yield").reason == "the tool is as stiff as before");
+  for (std::size_t k = 150; k <= 1000; ++k) h.deflection[k] = h.deflection[150];
+  CHECK(stage(force_stages(h, definition), "yield").reason == "the tool does not bend on");
+}
+
+TEST_CASE("a peak that has lost a tenth when fracture begins is still held, one that has lost a third is not", "[stages]") {
+  ForceHistory h = whole();
+  const double lost = GENERATE(0.1, 0.33);
+  for (std::size_t k = 0; k <= 1000; ++k) {
+    const double t = h.time[k];
+    if (t > 7e-3) h.force[k] = between(t, {{7e-3, 18e3}, {7.2e-3, 18e3 * (1.0 - lost)}, {8.5e-3, 18e3 * (1.0 - lost)}, {9e-3, 4e3}, {10e-3, 4e3}});
+    h.softened[k] = h.failed[k] = t > 8.4e-3 ? 1.0 : 0.0;
+  }
+  CHECK(stage(force_stages(h, definition), "peak").present == (lost < 0.2));
+  CHECK(stage(force_stages(h, definition), "decline").present == (lost < 0.2));
 }
 
 TEST_CASE("a force that falls before anything breaks has no peak with fracture", "[stages]") {
