@@ -179,13 +179,16 @@ class Hunt:
         return found
 
 
-def kept(path, defect, commit):
-    """The fate that an earlier hunt found for the same patch and commit; None when it has to be found again."""
+def kept(path, defect, commit, tier):
+    """The fate that an earlier hunt found for the same patch and commit; None when it has to be found again: what lived through a
+    smaller tier has not been looked at with this one."""
     try:
         found = kills.from_json(read_json(path))
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    return found if found.hash == defect.hash and found.commit == commit and found.state != "error" else None
+    known = found.hash == defect.hash and found.commit == commit and found.state != "error"
+    far_enough = found.state == "killed" or found.looked in TIERS and TIERS.index(found.looked) >= TIERS.index(tier)
+    return found if known and far_enough else None
 
 
 def hunt(arguments, wanted):
@@ -199,7 +202,7 @@ def hunt(arguments, wanted):
         wanted = sorted(wanted, key=lambda d: (d.name not in state.switched.numbers, d.reach, d.name))   # most answers come soon
         for i, defect in enumerate(wanted, 1):
             path = fates / f"{defect.name}.json"
-            fate = kept(path, defect, state.commit) if arguments.resume else None
+            fate = kept(path, defect, state.commit, state.tiers[-1]) if arguments.resume else None
             if fate is None:
                 began = time.monotonic()
                 fate = state.judge(defect)

@@ -33,6 +33,7 @@ class Fate:
     tier: str = ""            # smallest tier that killed it by the truth, or by the change
     hash: str = ""
     commit: str = ""
+    looked: str = ""          # largest tier that was asked for
     largest_smoke_move: float | None = None   # relative, of any metric of the smoke tier; None without one
     seen: list = field(default_factory=list)  # Kill of each case that ran
     seconds: float = 0.0      # wall time, building and running
@@ -77,7 +78,7 @@ def largest_move(rows):
 
 def fate(defect, kills, tiers, commit):
     """Fate from what each case saw, tier by tier."""
-    result = Fate(defect.name, "survived", hash=defect.hash, commit=commit, seen=kills)
+    result = Fate(defect.name, "survived", hash=defect.hash, commit=commit, looked=tiers[-1], seen=kills)
     for by, state in (("truth", "killed"), ("change", "changed")):
         found = [t for t in tiers if any(k.tier == t and k.by == by for k in kills)]
         if found:

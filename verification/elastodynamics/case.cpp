@@ -19,6 +19,7 @@ Family elastodynamics_family() {
   family.add("rubber_rings", elastodynamic_cases::rubber_rings);
   family.add("simple_shear", elastodynamic_cases::simple_shear);
   family.add("passing_rows", elastodynamic_cases::passing_rows);
+  family.add("parted_strip", elastodynamic_cases::parted_strip);
   family.add("gravity_column", elastodynamic_cases::gravity_column);
   return family;
 }

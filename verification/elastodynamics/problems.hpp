@@ -20,6 +20,7 @@ Problem order_in_time(const Parameters& input);
 Problem rubber_rings(const Parameters& input);
 Problem simple_shear(const Parameters& input);
 Problem passing_rows(const Parameters& input);
+Problem parted_strip(const Parameters& input);
 Problem gravity_column(const Parameters& input);
 
 /// Elastic material of a case: density, young_modulus, poisson_ratio.

@@ -10,6 +10,8 @@ Problem pushed_block(const Parameters& input) {
   const double stress = input.quantity("stress", dimension::stress, range::positive);
   const std::string load = input.choice("load", {"applied", "held", "prescribed"});
   const double passes = input.number("passes", range::positive);
+  const double damping = input.number_or("damping", 0.0, range::not_negative);   // times the time that it lasts
+  const double damped = input.number_or("damped_share", 0.0, {0.0, 1.0});
   const Scheme scheme = read_scheme(input);
 
   return [=](Run& run) {
@@ -27,13 +29,23 @@ Problem pushed_block(const Parameters& input) {
     const Vector<2> a = F / (material.reference_density * L * L);
     if (load == "prescribed")
       simulation.body.loads.motions.push_back({"hand", all, [a](double t) { return Vector<2>(t * a); }});
+    const double T_damped = damped * passes * L / c, rate = damped > 0.0 ? damping / T_damped : 0.0;
+    simulation.body.loads.damping = rate;
+    simulation.body.loads.damping_end = T_damped;
     DynamicRun<2> dynamic(run, simulation);
     dynamic.until(passes * L / c, 200, 2);
     exercise(run, scheme);
     run.exercises(load == "applied" ? "boundaries/applied_force" : load == "held" ? "boundaries/held_forces" : "boundaries/prescribed_motion");
 
-    const Vector<2> P = simulation.momentum(), given = simulation.time() * F;
+    // P' = F - rate P while damping lasts, P' = F after it.
+    const double as_if_free = rate > 0.0 ? (1.0 - std::exp(-damping)) / rate : 0.0;
+    const Vector<2> P = simulation.momentum(), given = (as_if_free + simulation.time() - T_damped) * F;
     run.measure("momentum", (P - given).norm() / given.norm());
+    if (rate > 0.0) {
+      run.exercises("boundaries/damping");
+      measure_energy(run, dynamic);
+      return;
+    }
     const Particles<2>& p = simulation.body.particles;
     const Vector<2> way = 0.5 * simulation.time() * simulation.time() * a;
     double worst = 0.0;

@@ -10,6 +10,8 @@ Family material_point_family() {
   family.add("metal_path", metal_path);
   family.add("adiabatic_flow", adiabatic_flow);
   family.add("hugoniot", hugoniot);
+  family.add("linear_pressure", linear_pressure);
+  family.add("single_step", single_step);
   family.add("fracture", fracture);
   family.add("simple_shear", simple_shear);
   family.add("rotation", rotation);

@@ -10,12 +10,13 @@ namespace furrow::material_point_cases {
 namespace {
 
 /// Axial strain in n steps while lateral stress keeps the triaxiality s(k/n): sigma_l = sigma_a (3 s - 1)/(3 s + 2), mirrored for
-/// compression. `visit` sees each state and may stop the path by returning false.
+/// compression. From `temperature` (K) on, or from the law's own where it is 0. `visit` sees each state and may stop the path by returning false.
 template <class Law>
-void pull_at_triaxiality(const Law& law, double strain, double rate, int n, const std::function<double(double)>& triaxiality,
+void pull_at_triaxiality(const Law& law, double temperature, double strain, double rate, int n, const std::function<double(double)>& triaxiality,
                          const std::function<bool(const MaterialState&, const MaterialState&)>& visit) {
   const AnyMaterial material = law;
   MaterialState state = initial_state(material);
+  if (temperature > 0.0) state.temperature = temperature;
   const double sign = triaxiality(1.0) < -1.0 / 6.0 ? -1.0 : 1.0;   // below, the axial stress is the compressive one
   Increment increment;
   increment.dt = strain / n / rate;
@@ -47,6 +48,7 @@ Problem fracture(const Parameters& input) {
   const bool changing = input.choice_or("triaxiality_path", "constant", {"constant", "changing"}) == "changing";
   const double s_0 = input.number("triaxiality"), s_1 = changing ? input.number("final_triaxiality") : s_0;
   const double rate = input.quantity("rate", dimension::rate, range::positive);
+  const double temperature = input.quantity_or("temperature", dimension::temperature, 0.0, range::not_negative);
   return [=](Run& run) {
     run.exercises("materials/johnson_cook_damage");
     std::visit(
@@ -55,15 +57,17 @@ Problem fracture(const Parameters& input) {
             if (!law.damage) throw std::runtime_error("the material has no damage");
             const JohnsonCookDamage& d = *law.damage;
             const double ratio = law.strength.rate_ratio(rate);
+            const double T_0 = law.strength.reference_temperature, T_m = law.strength.melting_temperature;
+            const double homologous = temperature > T_0 ? (temperature - T_0) / (T_m - T_0) : 0.0;
             const auto eps_f = [&](double s) {
-              return exact::johnson_cook_fracture_strain({d.D1, d.D2, d.D3, d.D4, d.D5}, s, ratio, 0.0);
+              return exact::johnson_cook_fracture_strain({d.D1, d.D2, d.D3, d.D4, d.D5}, s, ratio, homologous);
             };
             if (!changing) {
               const double truth = eps_f(s_0), step = 1e-3;
               double damage_by_strain = 0.0, failed_at = 0.0, last_before = 0.0;
               MaterialState failed;
               pull_at_triaxiality(
-                  law, 1.1 * truth, rate, static_cast<int>(1.1 * truth / step), [&](double) { return s_0; },
+                  law, temperature, 1.1 * truth, rate, static_cast<int>(1.1 * truth / step), [&](double) { return s_0; },
                   [&](const MaterialState& before, const MaterialState& now) {
                     failed = now;
                     if (now.damage >= 1.0) {
@@ -92,7 +96,7 @@ Problem fracture(const Parameters& input) {
             std::vector<double> steps, off;
             for (const int n : {250, 500, 1000, 2000}) {
               MaterialState end;
-              pull_at_triaxiality(law, strain, rate, n, at, [&](const MaterialState&, const MaterialState& now) {
+              pull_at_triaxiality(law, temperature, strain, rate, n, at, [&](const MaterialState&, const MaterialState& now) {
                 end = now;
                 return true;
               });

@@ -1,6 +1,7 @@
 // The Mie-Grueneisen equation of state (paper Eq. 17 in its right form) against what it is made from: shock velocity linear in
 // particle velocity and the jump conditions; expansion; sound; and work around a closed cycle.
 #include "harness/material_file.hpp"
+#include "reference/exact/quadrature.hpp"
 #include "verification/material-point/drive.hpp"
 #include "verification/material-point/problems.hpp"
 
@@ -97,7 +98,44 @@ Problem hugoniot(const Parameters& input) {
     }
     run.measure("isentrope_error", std::abs(off.front()));
     measure_order(run, "observed_order", steps, off, 1e-11);
+    // With shear the stress does work of its own, per mass of the middle of each step.
+    const double G = 0.4 * eos.reference_density * eos.sound_speed * eos.sound_speed;
+    const Fluid stiff{eos, G, 1e12, 0.0};
+    const double work =
+        exact::follow(exact::von_mises(truth, G, 1e12, 0.0), point(stiff.initial_state()), {leg}).back().energy;
+    std::vector<double> work_off;
+    for (const double step : steps)
+      work_off.push_back(squeezed(stiff, stiff.initial_state(), -0.15, static_cast<int>(std::lround(0.15 / step))).internal_energy / work - 1.0);
+    run.measure("work_error", std::abs(work_off.front()));
+    measure_order(run, "work_order", steps, work_off, 1e-11);
     run.measure("cold_energy_error", eos.cold_energy(eos.reference_density * std::exp(0.15)) / e_truth - 1.0);
+  };
+}
+
+Problem linear_pressure(const Parameters& input) {
+  const NamedMaterial material = read_material(input, "material");
+  const LinearEos eos = std::visit(
+      [&](const auto& law) -> LinearEos {
+        if constexpr (requires { law.eos.bulk_modulus; })
+          return law.eos;
+        else
+          input.fail("material", "found a material without a linear equation of state, expected one with it");
+      },
+      material.law);
+  return [=](Run& run) {
+    run.exercises("materials/linear_eos");
+    const exact::PressureLaw truth = pressure_law(eos);
+    Largest pressure, sound, energy;
+    for (double ratio = 0.8; ratio < 1.3; ratio += 0.01) {
+      const double rho = ratio * eos.reference_density, p = truth.pressure(rho, 0.0);
+      pressure.add((eos.cold_pressure(rho) - p) / eos.bulk_modulus);
+      sound.add(eos.isentropic_stiffness(rho, p) / truth.stiffness(rho) - 1.0);
+      const double e = exact::integrate([&](double r) { return truth.pressure(r, 0.0) / (r * r); }, eos.reference_density, rho, 1e-12);
+      energy.add((eos.cold_energy(rho) - e) * eos.reference_density / eos.bulk_modulus);
+    }
+    run.measure("pressure_error", pressure.magnitude);
+    run.measure("sound_speed_error", sound.magnitude);
+    run.measure("cold_energy_error", energy.magnitude);
   };
 }
 

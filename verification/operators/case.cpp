@@ -17,6 +17,7 @@ Family operators_family() {
   family.add("stress_power", operator_cases::stress_power);
   family.add("deformed_block", operator_cases::deformed_block);
   family.add("stressed_layers", operator_cases::stressed_layers);
+  family.add("uneven_norms", operator_cases::uneven_norms);
   return family;
 }
 

@@ -14,6 +14,7 @@ Problem conservation(const Parameters& input);           ///< momentum, angular 
 Problem compressed_block(const Parameters& input);       ///< three ways to a density, and the one that misses
 Problem stress_power(const Parameters& input);           ///< the energy that a uniform deformation does
 Problem deformed_block(const Parameters& input);         ///< the undeformed body's sums, and what holds zigzags, on random particles
+Problem uneven_norms(const Parameters& input);           ///< the norms of a known field on cells of two sizes
 Problem stressed_layers(const Parameters& input);        ///< what boundary layers carry beside evenly stressed soil
 
 }  // namespace furrow::operator_cases
