@@ -73,6 +73,30 @@ def test_each_tool_and_free_length_has_thresholds_of_its_own(stored):
     assert len(studies.page(rows, TODAY)[0]["limits"]) == 3
 
 
+def test_the_uncertainty_of_values_that_converge_is_that_of_their_fit():
+    across = (6, 8, 12)
+    for order, safety in ((1.0, 1.25), (2.0, 1.25), (3.0, 3.0)):
+        values = [5.0 + 40.0 * n**-order for n in across]
+        share, found = studies.numerical_uncertainty(across, values)
+        assert found == pytest.approx(order, abs=1e-4)
+        assert share == pytest.approx(safety * (values[-1] - 5.0) / values[-1], rel=1e-3)
+
+
+def test_the_uncertainty_of_values_that_do_not_converge_is_three_times_their_range():
+    assert studies.numerical_uncertainty((6, 8, 12), (4.0, 5.0, 4.5)) == (pytest.approx(3.0 / 4.5), None)
+    assert studies.numerical_uncertainty((6, 8, 12), (4.0, 4.1, 4.5)) == (pytest.approx(1.5 / 4.5), None)   # ever faster
+    assert studies.numerical_uncertainty((6, 8), (4.0, 5.0)) == (pytest.approx(0.6), None)
+    assert studies.numerical_uncertainty((6,), (4.0,)) == (None, None)
+
+
+def test_resolutions_of_a_case_are_a_ladder():
+    rows = [{"case": f"tillage/rock-2.0{tail}", "across": n, "metrics": {"fracture_time": {"value": t, "unit": "ms"}}}
+            for tail, n, t in (("-across-8", 8, 4.0), ("", 6, 4.1))]
+    ladder, = studies.ladders(rows)
+    assert ladder["case"] == "tillage/rock-2.0" and ladder["across"] == [6, 8]
+    assert ladder["numbers"]["fracture_time"] == (4.0, "ms", pytest.approx(0.075), None)
+
+
 def test_the_hinge_of_a_plate():
     first, limit = studies.hinge(324e6, 1.5e-3)
     assert limit == pytest.approx(210.4, abs=0.1) and first == pytest.approx(140.3, abs=0.1)
