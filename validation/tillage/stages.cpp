@@ -83,7 +83,8 @@ std::array<Stage, 5> force_stages(const ForceHistory& h, const StageDefinition& 
   const std::size_t cracked = first_where(0, [&](std::size_t k) { return h.failed[k] > 0.0; });
   const std::size_t from = plastic < n ? plastic : 0, highest = greatest(from);
   if (yield.present) {
-    const std::size_t start = first_where(0, [&](std::size_t k) { return h.time[k] >= yield.end; });
+    const double yielded = yield.end;
+    const std::size_t start = first_where(0, [&](std::size_t k) { return h.time[k] >= yielded; });
     if (highest > start && F[highest] >= (1.0 + d.strengthening) * F[start]) set(hardening, start, highest);
     else hardening.reason = "the force does not grow after yield";
   } else if (hardening.reason.empty()) {
