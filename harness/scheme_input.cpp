@@ -43,7 +43,8 @@ Scheme read_scheme(const Parameters& parameters) {
   scheme.artificial_stress.reset();
   if (is_on(in, "artificial_stress")) {
     const Parameters artificial = in.table("artificial_stress");
-    scheme.artificial_stress = ArtificialStress{artificial.number("eps", range::not_negative), artificial.number("n", range::positive)};
+    scheme.artificial_stress = ArtificialStress{artificial.number("eps", range::not_negative), artificial.number("n", range::positive),
+                                                artificial.flag_or("neutral", false)};
   }
   scheme.frame = in.choice_or("frame", "current", {"current", "reference"}) == "reference" ? Frame::reference : Frame::current;
   if (is_on(in, "bulk_viscosity")) {

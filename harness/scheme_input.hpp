@@ -1,7 +1,7 @@
 // The numerical choices of a case, by name:
 //
 //   scheme = { kernel = "wendland_c2", correction = "linear", density = "continuity", viscosity = { alpha = 1, beta = 2 },
-//              artificial_stress = { eps = 0.3, n = 4 }, hourglass = 0.1, xsph = 0.5, shepard_every = 20, energy = true }
+//              artificial_stress = { eps = 0.3, n = 4, neutral = false }, hourglass = 0.1, xsph = 0.5, shepard_every = 20, energy = true }
 //
 //   scheme = { frame = "reference", correction = "linear", bulk_viscosity = { linear = 0.06, quadratic = 1.2 },
 //              hourglass = 0.1, hourglass_damping = 0.1, cracks = true }

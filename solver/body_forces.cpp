@@ -107,7 +107,7 @@ template <int Dim>
 LayerSurroundings<Dim> Body<Dim>::layer_surroundings() {
   const std::size_t n = particles.size();
   soil_volume_.resize(particles.position.size());
-  for (std::size_t i = 0; i < n; ++i) soil_volume_[i] = is_in_layer(i) ? 0.0 : particles.volume(i);
+  for_all(n, [&](std::size_t i) { soil_volume_[i] = is_in_layer(i) ? 0.0 : particles.volume(i); });
   if (!images.empty()) images.fill(soil_volume_);
   return {scheme.kernel, smoothing_length(), box, &neighbours_, particles.position, soil_volume_, index_of_id_, in_layer_};
 }
@@ -139,7 +139,7 @@ void Body<Dim>::extrapolate_stresses(const Vector<Dim>& gravity) {
   if (layers.empty()) return;
   Particles<Dim>& p = particles;
   plane_stress_.resize(p.position.size());
-  for (std::size_t i = 0; i < p.size(); ++i) plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>();
+  for_all(p.size(), [&](std::size_t i) { plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>(); });
   if (!images.empty()) images.fill_tensors(std::span(plane_stress_));
   const double rho = std::visit([](const auto& law) { return law.initial_state().density; }, material);
   const LayerSurroundings<Dim> around = layer_surroundings();
@@ -152,10 +152,10 @@ void Body<Dim>::account_layers(std::span<const Vector<Dim>> velocity) {
   layer_forces_.assign(layers.size(), Vector<Dim>::Zero());
   layer_power_ = layer_viscous_power_ = 0.0;
   if (layers.empty()) return;
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for_all(p.size(), [&](std::size_t i) {
     plane_stress_[i] = p.stress[i].template topLeftCorner<Dim, Dim>();
     if (scheme.correction == Correction::linear) plane_stress_[i] *= linear_[i].transpose();
-  }
+  });
   if (!images.empty()) images.fill_tensors(std::span(plane_stress_));
   strained_.assign(velocity.begin(), velocity.end());
   const LayerSurroundings<Dim> around = layer_surroundings();

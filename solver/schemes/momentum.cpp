@@ -34,6 +34,13 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
     else
       return reads(velocity, A, w.weight);
   }();
+  const double share = [&] {
+    if constexpr (Artificial)
+      if (terms.artificial_stress->neutral)
+        return std::visit([&]<class K>(K) { return artificial_share<K, Dim>(terms.artificial_stress->n, terms.spacing, h); },
+                          stencil.kernel);
+    return 0.0;
+  }();
   for_each_particle(stencil, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
     const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
     const Lanes prefactor = broadcast(dual ? 1.0 / p.density[i] : 1.0);
@@ -71,7 +78,7 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
       if constexpr (Artificial) {
         const Lanes f = kernel(pair) * (1.0 / value<K, Dim>(terms.spacing, h));
         const LaneMatrix<Dim> R = broadcast<Dim>(w.R[i]) + (R_j, ...);
-        const LaneVector<Dim> from_artificial = (m_j * power_of(f, terms.artificial_stress->n)) * (R * pair.grad);
+        const LaneVector<Dim> from_artificial = (m_j * (power_of(f, terms.artificial_stress->n) - share)) * (R * pair.grad);
         a += from_artificial;
         artificial_power += dot(from_artificial, v_ij);
       }

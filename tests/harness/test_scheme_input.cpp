@@ -39,12 +39,14 @@ TEST_CASE("terms of a scheme are off where they are not named, and on by name", 
   CHECK(paper.viscosity->beta == 2.0);
   REQUIRE(paper.artificial_stress);
   CHECK(paper.artificial_stress->eps == 0.3);
+  CHECK_FALSE(paper.artificial_stress->neutral);
   CHECK(paper.xsph == 0.5);
   CHECK(paper.hourglass == 0.1);
   CHECK(paper.shepard_every == 20);
   CHECK_FALSE(paper.energy);
 
   CHECK_FALSE(scheme_of("{ viscosity = false, artificial_stress = false }").viscosity);
+  CHECK(scheme_of("{ artificial_stress = { eps = 0.3, n = 4, neutral = true } }").artificial_stress->neutral);
 }
 
 TEST_CASE("a wrong word in a scheme is named with what would be right", "[scheme]") {

@@ -23,7 +23,9 @@ SoilColumn read_soil_column(const Parameters& input) {
            .end_time = input.quantity("end_time", dimension::time, range::positive),
            .courant = input.number_or("courant", 0.4, range::positive),
            .rest_speed = input.quantity_or("rest_speed", dimension::velocity, 0.05, range::positive),
+           .rest_held = 0.0,
            .scheme = read_scheme(input)};
+  c.rest_held = input.quantity_or("rest_held", dimension::time, std::sqrt(c.height / c.gravity), range::positive);
   c.resting = read_resting_ratio(input, soil.law, soil.law.reference_density * c.gravity * c.height);
   if (c.left < 0.0) input.fail("left", fmt::format("found {:g} m, expected 0 or more: the soil would overlap the wall at x = 0", c.left));
   if (c.bottom < 0.0) input.fail("bottom", fmt::format("found {:g} m, expected 0 or more: the soil would overlap the floor at y = 0", c.bottom));
@@ -62,6 +64,15 @@ double front_of(const Body<2>& body) {
     if (near >= 4) front = p.position[i][0];
   }
   return front;
+}
+
+constexpr double still_moving = 0.01;   ///< share of the mass that may be faster than the speed of rest in a heap at rest
+
+/// Time from which on a heap is at rest to the end of its history.
+double rest_time_of(const std::vector<double>& time, const std::vector<double>& moving) {
+  double rest = time.back();
+  for (std::size_t k = time.size(); k-- > 0 && moving[k] < still_moving;) rest = time[k];
+  return rest;
 }
 
 double volume_of(const Body<2>& body) {
@@ -141,7 +152,12 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
                     return sum / static_cast<double>(soil.size());
                   });
   const double volume = c.width * c.height;
-  dynamic.until(c.end_time, 300, 8);
+  dynamic.until(c.end_time, 300, 8, [&c](const DynamicRun<2>& so_far) {
+    const std::vector<double>&t = so_far.column("time"), &moving = so_far.column("moving_fraction");
+    // Before it is released a heap is at rest as well.
+    const bool has_moved = std::any_of(moving.begin(), moving.end(), [](double m) { return m >= still_moving; });
+    return has_moved && t.back() - rest_time_of(t, moving) >= c.rest_held;
+  });
   exercise(run, c.scheme);
   run.exercises("materials/drucker_prager");
   run.exercises("boundaries/boundary_layer");
@@ -149,7 +165,7 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
 
   const std::vector<double>&t = dynamic.column("time"), &moving = dynamic.column("moving_fraction"), &speed = dynamic.column("greatest_speed");
   Collapsed end{.surface = surface_now(body, window),
-                .rest_time = c.end_time,
+                .rest_time = rest_time_of(t, moving),
                 .greatest_speed = 0.0,
                 .time_of_greatest_speed = 0.0,
                 .crest_settlement = dynamic.column("crest_settlement").back(),
@@ -157,13 +173,12 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
                 .late_motion = 0.0,
                 .volume_change = volume_of(body) / volume - 1.0,
                 .energy_imbalance = dynamic.energy_imbalance()};
-  for (std::size_t k = t.size(); k-- > 0 && moving[k] < 0.01;) end.rest_time = t[k];
   const auto fastest = static_cast<std::size_t>(std::max_element(speed.begin(), speed.end()) - speed.begin());
   end.greatest_speed = speed[fastest];
   end.time_of_greatest_speed = t[fastest];
 
   const std::vector<double>&x_c = dynamic.column("centre_x"), &y_c = dynamic.column("centre_y");
-  const std::size_t late = t.size() - 1 - t.size() / 10;
+  const auto late = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end() - 1, t.back() - 0.5 * c.rest_held) - t.begin());
   end.late_motion = std::hypot(x_c.back() - x_c[late], y_c.back() - y_c[late]) / c.height;
 
   soil_figure(run, body, "displacement", "Displacement", {"|u|", "m"}, [&body](std::size_t i) {

@@ -28,6 +28,7 @@ struct SoilColumn {
   double gate_speed;                    ///< m/s, upwards; 0: there is no gate from the start on
   double gravity, end_time, courant;
   double rest_speed;                    ///< m/s: what is slower is at rest
+  double rest_held;                     ///< s: the run ends when the heap has been at rest for so long
   Scheme scheme;
 };
 SoilColumn read_soil_column(const Parameters& input);
@@ -39,7 +40,7 @@ struct Collapsed {
   double greatest_speed, time_of_greatest_speed;   ///< of all but a thousandth of the mass
   double crest_settlement;          ///< m, of the upper particle at the face
   double front;                     ///< m, farthest particle with at least four neighbours of soil within two spacings
-  double late_motion;               ///< way of the centre of mass over the last tenth of the time, over the initial height
+  double late_motion;               ///< way of the centre of mass over the last half of `rest_held`, over the initial height
   double volume_change;             ///< of the sum of m/rho, relative
   double energy_imbalance;
 };

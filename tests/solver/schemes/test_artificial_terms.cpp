@@ -79,4 +79,33 @@ TEST_CASE("artificial stress pushes a stretched pair apart", "[schemes]") {
   CHECK((with[0] + with[1]).norm() == 0.0);
 }
 
+TEST_CASE("artificial stress takes its share of a uniform tension; the neutral form takes nothing", "[schemes]") {
+  Points<2> lattice{{}, 1.0, 1.0, {}};
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -4; j <= 4; ++j) lattice.position.emplace_back(i, j);
+  Arrangement<2> a = arranged(lattice, 1.0, 3.2);
+  const std::size_t n = a.particles.size();
+  std::size_t centre = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    a.particles.stress[i] = 5.0 * Tensor::Identity();
+    a.particles.velocity[i] = a.particles.position[i];   // uniform expansion: all that carries stress does work
+    if (a.particles.position[i].norm() < 0.1) centre = i;
+  }
+  REQUIRE(centre < n);
+  std::vector<Vector<2>> acceleration(n);
+  std::vector<MomentumPower> power(n);
+  MomentumWorkspace<2> workspace;
+  for (const double h : {1.2, 1.5}) {
+    const Stencil<2> stencil = a.stencil(WendlandC2{}, h);
+    const double share = artificial_share<WendlandC2, 2>(4.0, 1.0, h);
+    momentum<2>(stencil, a.particles, a.particles.velocity, {}, {{}, ArtificialStress{0.3, 4.0}, 1.0}, workspace, acceleration, power);
+    CHECK(power[centre].artificial == Approx(-0.3 * share * power[centre].stress));
+    CHECK(share == Approx(h == 1.2 ? 0.55677 : 0.34549).epsilon(1e-4));   // the sums written out elsewhere
+    momentum<2>(stencil, a.particles, a.particles.velocity, {}, {{}, ArtificialStress{0.3, 4.0, true}, 1.0}, workspace, acceleration, power);
+    CHECK(std::abs(power[centre].artificial) < 1e-14 * std::abs(power[centre].stress));
+  }
+  // In three dimensions the nearest six carry all of it where no other is in reach.
+  CHECK(artificial_share<CubicSpline, 3>(4.0, 1.0, 0.6) == Approx(1.0));
+}
+
 }  // namespace furrow

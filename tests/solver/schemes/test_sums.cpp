@@ -57,6 +57,23 @@ struct Sums {
 template <int Dim>
 using CorrectionOf = std::vector<Matrix<Dim>>;
 
+/// Part of a uniform stress that pairs weighed by f^n carry on a lattice: by shells of equal distance.
+template <int Dim>
+double lattice_share(const exact::Kernel& kernel, const ArtificialStress& model, double dx) {
+  double carried = 0.0, all = 0.0;
+  for (int squared = 1; squared * dx * dx < 16.0 * h * h; ++squared) {
+    int members = 0;
+    const int side = static_cast<int>(std::sqrt(squared)) + 1;
+    for (int a = -side; a <= side; ++a)
+      for (int b = -side; b <= side; ++b)
+        for (int c = Dim == 3 ? -side : 0; c <= (Dim == 3 ? side : 0); ++c) members += a * a + b * b + c * c == squared;
+    const double r = dx * std::sqrt(squared), part = members * r * kernel.derivative(r, h);
+    all += part;
+    carried += part * std::pow(kernel.value(r, h) / kernel.value(dx, h), model.n);
+  }
+  return carried / all;
+}
+
 /// a_i and powers from the equations as they are written in momentum.hpp, term by term.
 template <int Dim>
 void check_momentum(const Sums<Dim>& s, const CorrectionOf<Dim>& B, const MomentumTerms& terms) {
@@ -101,7 +118,8 @@ void check_momentum(const Sums<Dim>& s, const CorrectionOf<Dim>& B, const Moment
         from_viscosity -= 0.5 * g.dot(v_ij);
       }
       if (terms.artificial_stress) {
-        const double f_n = std::pow(pair.W / s.kernel.value(terms.spacing, h), terms.artificial_stress->n);
+        const double share = terms.artificial_stress->neutral ? lattice_share<Dim>(s.kernel, *terms.artificial_stress, terms.spacing) : 0.0;
+        const double f_n = std::pow(pair.W / s.kernel.value(terms.spacing, h), terms.artificial_stress->n) - share;
         const Vector<Dim> g = p.mass[j] * f_n * (R[i] + R[j]) * pair.grad;
         a += g;
         from_artificial -= 0.5 * g.dot(v_ij);
@@ -180,6 +198,8 @@ void check_sums(const std::string& name, bool periodic) {
     check_momentum(s, correction, terms);
     terms.viscosity.reset();
     terms.artificial_stress->n = 2.55;
+    check_momentum(s, correction, terms);
+    terms.artificial_stress->neutral = true;
     check_momentum(s, correction, terms);
   }
 }
