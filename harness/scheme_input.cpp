@@ -54,12 +54,13 @@ Scheme read_scheme(const Parameters& parameters) {
   scheme.hourglass_damping = in.number_or("hourglass_damping", 0.0, {0.0, 1.0});
   scheme.hourglass = in.number_or("hourglass", 0.0, {0.0, 10.0});
   scheme.cracks = in.flag_or("cracks", false);
+  scheme.sub_cycling = in.flag_or("sub_cycling", false);
   scheme.xsph = in.number_or("xsph", 0.0, {0.0, 1.0});
   scheme.energy = in.flag_or("energy", true);
   const bool reference = scheme.frame == Frame::reference;
   for (const char* key : {"viscosity", "artificial_stress", "xsph", "shepard_every", "density"})
     if (reference && in.has(key)) in.fail(key, "has no meaning in the reference frame");
-  for (const char* key : {"bulk_viscosity", "hourglass_damping", "cracks"})
+  for (const char* key : {"bulk_viscosity", "hourglass_damping", "cracks", "sub_cycling"})
     if (!reference && in.has(key)) in.fail(key, "is there in the reference frame only: frame = \"reference\"");
   if (reference) scheme.viscosity.reset();
   return scheme;
@@ -67,8 +68,13 @@ Scheme read_scheme(const Parameters& parameters) {
 
 void exercise(Run& run, const Scheme& scheme) {
   run.exercises("smoothing/" + std::string(std::visit([](auto k) { return decltype(k)::name; }, scheme.kernel)));
-  if (scheme.correction != Correction::quadratic) run.exercises("schemes/velocity_gradient");
-  run.exercises("schemes/momentum");
+  if (scheme.frame == Frame::current) {
+    if (scheme.correction != Correction::quadratic) run.exercises("schemes/velocity_gradient");
+    run.exercises("schemes/momentum");
+  } else {
+    run.exercises("schemes/reference_frame");
+    if (scheme.correction == Correction::quadratic) run.exercises("schemes/momentum");
+  }
   if (scheme.correction == Correction::linear) run.exercises("schemes/kernel_correction");
   if (scheme.correction == Correction::quadratic) run.exercises("schemes/quadratic_gradient");
   const bool sums_density = scheme.density == DensityEquation::shepard || scheme.density == DensityEquation::summation;
@@ -77,7 +83,6 @@ void exercise(Run& run, const Scheme& scheme) {
   if (scheme.artificial_stress) run.exercises("schemes/artificial_stress");
   if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) run.exercises("schemes/hourglass");
   if (scheme.xsph > 0.0) run.exercises("schemes/xsph");
-  if (scheme.frame == Frame::reference) run.exercises("schemes/reference_frame");
   run.exercises("integrators/step_control");
   run.exercises("simulation");
 }

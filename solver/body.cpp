@@ -107,7 +107,8 @@ template <int Dim>
 void Body<Dim>::find_neighbours() {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
-  const double reach = (1.0 + skin) * support(scheme.kernel) * smoothing_length();
+  // Pairs that are kept for good need no skin.
+  const double reach = (keeps_pairs() ? 1.0 : 1.0 + skin) * support(scheme.kernel) * smoothing_length();
   // One grid over particles and images; both parts are sorted by its cells, images after what they are images of.
   std::vector<Vector<Dim>> seen(p.position_at_build.begin(), p.position_at_build.begin() + static_cast<std::ptrdiff_t>(n));
   const std::vector<Vector<Dim>> mirrored = images.choose(seen, reach);
@@ -199,7 +200,7 @@ void Body<Dim>::refresh_neighbours(bool force) {
       std::copy_n(p.reference_position.begin(), n, p.position_at_build.begin());
       find_neighbours();
     }
-    fill_images();
+    if (force || !keeps_pairs()) fill_images();   // else sums fill what they read
     return;
   }
   if (force || neighbours_are_stale()) {
@@ -276,6 +277,11 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   Particles<Dim>& p = particles;
   const Stencil<Dim> s = stencil();
   lend_velocities(p.velocity, false);
+  if (keeps_pairs()) {
+    images.fill_velocities(p.velocity);
+    reference_gradient<Dim>(s, weights_, p.velocity, linear(), gradient_rate_);
+    return respond_in_reference(dt);
+  }
   // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.
   correction(0.5 * dt);
   if (scheme.correction != Correction::quadratic)
@@ -287,11 +293,10 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   for (const BoundaryLayer<Dim>& layer : layers)   // layers do not strain
     for (const std::int32_t id : layer.ids) velocity_gradient_[index_of(id)].setZero();
 
-  if (in_reference_frame())
-    for_all(p.size(), [&](std::size_t i) {
-      gradient_rate_[i] = velocity_gradient_[i];
-      velocity_gradient_[i] *= (p.deformation_gradient[i] + 0.5 * dt * gradient_rate_[i]).inverse();
-    });
+  if (in_reference_frame()) {
+    std::copy_n(velocity_gradient_.begin(), p.size(), gradient_rate_.begin());
+    return respond_in_reference(dt);
+  }
 
   const bool shepard = scheme.density == DensityEquation::shepard ||
                        (scheme.shepard_every > 0 && step % scheme.shepard_every == scheme.shepard_every - 1);
@@ -326,17 +331,12 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
           const Tensor L = embed<Dim>(velocity_gradient_[i]);
           const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
           set_state(i, next);
-          if (in_reference_frame()) {
-            p.deformation_gradient[i] += dt * gradient_rate_[i];
-          } else {
-            const Matrix<Dim> half = 0.5 * dt * velocity_gradient_[i], I = Matrix<Dim>::Identity();
-            p.deformation_gradient[i] = (I - half).inverse() * (I + half) * p.deformation_gradient[i];
-          }
+          const Matrix<Dim> half = 0.5 * dt * velocity_gradient_[i], I = Matrix<Dim>::Identity();
+          p.deformation_gradient[i] = (I - half).inverse() * (I + half) * p.deformation_gradient[i];
           p.sound_speed[i] = law.sound_speed(next);
         }
       },
       material);
-  if (in_reference_frame() && scheme.cracks) open_cracks();
 
   double compression = 0.0;
   const auto n = static_cast<std::int64_t>(p.size());

@@ -13,7 +13,9 @@
 #include "solver/materials/materials.hpp"
 #include "solver/particles/fields.hpp"
 #include "solver/particles/images.hpp"
+#include "solver/schemes/fast_part.hpp"
 #include "solver/schemes/momentum.hpp"
+#include "solver/schemes/reference_sums.hpp"
 #include "solver/schemes/scheme.hpp"
 
 namespace furrow {
@@ -73,6 +75,30 @@ class Body {
   /// squeezed particle. Changes nothing that a later step sees.
   double largest_wave_number();
 
+  // Sub-cycling in the reference frame (body_sub_cycle.cpp): squeezed particles, the fast part, take several short steps in one of
+  // the body. The pulls of all others, dampers, walls and gravity act at its ends: impulses between which the fast part moves by its
+  // own pulls (Tuckerman, Berne & Martyna 1992). Nothing may be prescribed or held, and no other body may be near.
+
+  /// Chooses the fast part anew; `slow_ratio` as in worth_short_steps. Returns kappa, as largest_wave_number() does, of the rest alone
+  /// and with its most squeezed particle; 0 where there is no fast part.
+  double choose_fast_part(double slow_ratio);
+  bool has_fast_part() const { return !fast_.empty(); }
+  std::span<const std::uint8_t> squeezed() const { return fast_.is_squeezed; }
+  const FastPart<Dim>& fast_part() const { return fast_; }
+  /// Takes the pulls of the fast part out of the accelerations, and puts those that there are now back in. In between accelerate()
+  /// and power() are of all else.
+  void part();
+  void join();
+  /// What drift and respond() are to a whole body, for a step of dt in `sub_steps` of the fast part; velocities of the fast part come
+  /// out with its pulls in them. Returns the largest -tr L of the slow part, 1/s.
+  double respond_in_sub_steps(double dt, int sub_steps);
+  /// Viscous work on the fast part in the last of these, J; in the particles' internal energy already where energy is on.
+  double fast_viscous_work() const { return fast_viscous_work_; }
+  double fast_deposit() const { return fast_deposit_; }   ///< what the particles' internal energy got of it
+  double fast_viscous_power() const { return fast_viscous_power_; }   ///< W, as of its last sub-step
+  /// The fast part of a run that goes on: which particles are squeezed, their pulls on the fast part, and its viscous power.
+  void restore_fast_part(std::vector<std::uint8_t> squeezed, std::vector<Vector<Dim>> pulls, double viscous_power);
+
   /// Sets the velocity of prescribed particles and of boundary layers.
   void prescribe(double time, std::span<Vector<Dim>> velocity) const;
   /// Kinetic energy of the particles whose motion is prescribed, J: what sets them in motion did this work.
@@ -80,6 +106,7 @@ class Body {
 
   std::size_t index_of(std::int32_t id) const { return static_cast<std::size_t>(index_of_id_[static_cast<std::size_t>(id)]); }
   const NeighbourList& neighbours() const { return neighbours_; }
+  /// As of the last accelerate(); in the reference frame without what the stress takes, which energy does not need.
   std::span<const MomentumPower> power() const { return power_; }
   const std::vector<Matrix<Dim>>& velocity_gradient() const { return velocity_gradient_; }
   std::span<const double> wall_forces() const { return wall_forces_; }
@@ -122,18 +149,41 @@ class Body {
   void plain_velocity_gradient(double dt);
   CorrectionView<Dim> view_of_correction() const;
   bool in_reference_frame() const { return scheme.frame == Frame::reference; }
+  /// In the reference frame but for quadratic gradients and periodic boxes: sums know what the kernel says of each pair
+  /// (reference_sums.hpp).
+  bool keeps_pairs() const { return in_reference_frame() && scheme.correction != Correction::quadratic && !box.any_periodic(); }
+  std::span<const Matrix<Dim>> linear() const { return scheme.correction == Correction::linear ? linear_ : std::span<const Matrix<Dim>>(); }
   void build_reference();
+  /// The rest of respond() when gradient_rate_ is there, but for the fast part. Returns the largest -tr L.
+  double respond_in_reference(double dt);
+  /// Particle i after dt of F'; returns tr L.
+  template <class Law>
+  double strain(const Law& law, std::size_t i, const Matrix<Dim>& rate, double dt);
+  /// A = P B^T of reference_sums.hpp, with the pressure of bulk viscosity, which it notes down.
+  Matrix<Dim> pull(std::size_t i);
+  double viscous_power(std::size_t i) const { return -viscous_pressure_[i] * velocity_gradient_[i].trace() / particles.density[i]; }
+  void strain_fast_part(double dt);
+  void pull_fast_part();
+  bool is_squeezed(std::size_t i) const { return !fast_.empty() && fast_.is_squeezed[i] != 0; }
+  /// Corrections, and what is kept of pairs, for the neighbours that there are now.
+  void look_at_pairs();
   /// In the reference frame: cuts pairs where particles have failed since the last time.
   void open_cracks();
-  void accelerate_in_reference(std::span<const Vector<Dim>> velocity);
+  void accelerate_in_reference(std::span<Vector<Dim>> velocity);
 
   NeighbourList neighbours_;
   std::vector<std::int32_t> index_of_id_;
   std::vector<Matrix<Dim>> velocity_gradient_, linear_;
   std::vector<Matrix<Dim>> gradient_rate_;   ///< in the reference frame: dv/dX, F'
+  PairWeights weights_;
+  FastPart<Dim> fast_;
+  bool parted_ = false;
+  double fast_viscous_power_ = 0.0, fast_viscous_work_ = 0.0, fast_deposit_ = 0.0;
+  std::vector<Vector<Dim>> mean_velocity_;   ///< of a step with sub-steps
   Particles<Dim> undeformed_;                ///< in the reference frame: what the momentum sum sees, stress the first Piola-Kirchhoff
   std::vector<QuadraticGradient<Dim>> quadratic_;
   std::vector<double> viscous_pressure_;     ///< in the reference frame, Pa
+  std::vector<double> damper_power_;         ///< in the reference frame, W/kg
   std::vector<double> volume_, density_before_;
   std::vector<MomentumPower> power_;
   MomentumWorkspace<Dim> workspace_;

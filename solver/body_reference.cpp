@@ -1,6 +1,8 @@
 // What a body does in the reference frame alone: what it was undeformed, its cracks, its stress and its largest frequency.
 #include "solver/body.hpp"
+#include "solver/materials/parts.hpp"
 #include "solver/modules.hpp"
+#include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/cracks.hpp"
 #include "solver/schemes/reference_frame.hpp"
 
@@ -9,6 +11,8 @@ namespace furrow {
 template <int Dim>
 void Body<Dim>::build_reference() {
   has_run(Module::reference_frame);
+  if (scheme.density != DensityEquation::continuity || scheme.shepard_every > 0)
+    throw std::invalid_argument("in the reference frame the density follows the continuity equation");
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
   const double rho_0 = std::visit([](const auto& law) { return law.initial_state().density; }, material);
@@ -23,7 +27,14 @@ void Body<Dim>::build_reference() {
   velocity_gradient_.assign(n, Matrix<Dim>::Zero());
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
   cut_cracks(neighbours_, p, spacing);   // those of a run that goes on
+  look_at_pairs();
+  fast_.choose(stencil(), weights_, linear(), {});
+}
+
+template <int Dim>
+void Body<Dim>::look_at_pairs() {
   make_correction();
+  if (keeps_pairs()) weigh_pairs<Dim>(stencil(), volume_, weights_);
 }
 
 template <int Dim>
@@ -37,32 +48,113 @@ void Body<Dim>::open_cracks() {
     }
   if (!opened) return;
   cut_cracks(neighbours_, p, spacing);
-  make_correction();
+  look_at_pairs();
+  if (fast_.empty()) return;
+  fast_.choose(stencil(), weights_, linear(), fast_.is_squeezed);
+  pull_fast_part();
 }
 
 template <int Dim>
-void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
+template <class Law>
+double Body<Dim>::strain(const Law& law, std::size_t i, const Matrix<Dim>& rate, double dt) {
   Particles<Dim>& p = particles;
-  const auto n = static_cast<std::int64_t>(p.size());
-  viscous_pressure_.assign(p.size(), 0.0);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double d = velocity_gradient_[i].trace();
-    if (scheme.bulk_viscosity && d < 0.0) {
-      // Over the distance of squeezed particles as it is now: over the first one, viscosity would be stiffer than the material.
-      const double length = spacing * p.sound_speed[i] / reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]);
-      viscous_pressure_[i] = bulk_viscosity(*scheme.bulk_viscosity, d, p.density[i], p.sound_speed[i], length);
-    }
-    const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - viscous_pressure_[i] * Matrix<Dim>::Identity();
-    undeformed_.stress[i].template topLeftCorner<Dim, Dim>() =
-        first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
+  Matrix<Dim>& F = p.deformation_gradient[i];
+  velocity_gradient_[i] = rate * (F + 0.5 * dt * rate).inverse();
+  const double divergence = velocity_gradient_[i].trace(), before = p.density[i];
+  p.density[i] *= std::exp(-divergence * dt);
+  p.density_rate[i] = (p.density[i] - before) / dt;
+  const Tensor L = embed<Dim>(velocity_gradient_[i]);
+  const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
+  set_state(i, next);
+  F += dt * rate;
+  p.sound_speed[i] = law.sound_speed(next);
+  return divergence;
+}
+
+template <int Dim>
+void Body<Dim>::strain_fast_part(double dt) {
+  std::visit(
+      [&](const auto& law) {
+        for_all(fast_.squeezed, [&](std::size_t l) { strain(law, static_cast<std::size_t>(fast_.particle[l]), fast_.rate[l], dt); });
+      },
+      material);
+}
+
+template <int Dim>
+double Body<Dim>::respond_in_reference(double dt) {
+  const auto n = static_cast<std::int64_t>(particles.size());
+  has_run(Module::jaumann_rate);
+  for_each_part(material, has_run);
+  double compression = 0.0;
+  std::visit(
+      [&](const auto& law) {
+#pragma omp parallel for schedule(static) reduction(max : compression)
+        for (std::int64_t k = 0; k < n; ++k) {
+          const auto i = static_cast<std::size_t>(k);
+          if (!is_squeezed(i)) compression = std::max(compression, -strain(law, i, gradient_rate_[i], dt));
+        }
+      },
+      material);
+  if (scheme.cracks) open_cracks();
+  return compression;
+}
+
+template <int Dim>
+Matrix<Dim> Body<Dim>::pull(std::size_t i) {
+  const Particles<Dim>& p = particles;
+  const double d = velocity_gradient_[i].trace();
+  double q = 0.0;
+  if (scheme.bulk_viscosity && d < 0.0) {
+    // Over the distance of squeezed particles as it is now: over the first one, viscosity would be stiffer than the material.
+    const double length = spacing * p.sound_speed[i] / reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]);
+    q = bulk_viscosity(*scheme.bulk_viscosity, d, p.density[i], p.sound_speed[i], length);
   }
-  momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
-  for_all(p.size(), [&](std::size_t i) { power_[i].viscous = -viscous_pressure_[i] * velocity_gradient_[i].trace() / p.density[i]; });
-  if (scheme.hourglass > 0.0 || scheme.hourglass_damping > 0.0) {
-    images.fill_tensors(std::span(p.deformation_gradient));
+  viscous_pressure_[i] = q;
+  const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - q * Matrix<Dim>::Identity();
+  const Matrix<Dim> P = first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
+  return keeps_pairs() && scheme.correction == Correction::linear ? Matrix<Dim>(P * linear_[i].transpose()) : P;
+}
+
+template <int Dim>
+void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
+  Particles<Dim>& p = particles;
+  viscous_pressure_.resize(p.size());
+  if (keeps_pairs()) workspace_.A.resize(p.position.size());
+  for_all(p.size(), [&](std::size_t i) {
+    if (!keeps_pairs())
+      undeformed_.stress[i].template topLeftCorner<Dim, Dim>() = pull(i);
+    else
+      workspace_.A[i] = parted_ && is_squeezed(i) ? Matrix<Dim>(Matrix<Dim>::Zero()) : pull(i);
+  });
+  const bool springs = scheme.hourglass > 0.0, dampers = scheme.hourglass_damping > 0.0;
+  if (springs || dampers) {
     images.fill_tensors(std::span(gradient_rate_));
+    images.fill_positions(p.position);
+    images.fill_velocities(velocity);
+    images.fill(p.density);
+    images.fill(p.sound_speed);
+  }
+  if (keeps_pairs()) {
+    has_run(Module::reference_frame);
+    images.fill_tensors(std::span(workspace_.A));
+    damper_power_.assign(p.size(), 0.0);
+    if (dampers && !springs) {
+      has_run(Module::hourglass);
+      damped_reference_divergence<Dim>(stencil(), weights_, workspace_.A, p, velocity, gradient_rate_, scheme.hourglass_damping,
+                                       undeformed_.density[0], p.acceleration, damper_power_);
+    } else {
+      reference_divergence<Dim>(stencil(), weights_, workspace_.A, undeformed_.density[0], p.acceleration);
+    }
+    for_all(p.size(), [&](std::size_t i) { power_[i] = {0.0, damper_power_[i], 0.0}; });
+  } else {
+    momentum<Dim>(stencil(), undeformed_, velocity, view_of_correction(), {}, workspace_, p.acceleration, power_);
+    for_all(p.size(), [&](std::size_t i) { power_[i].viscous = 0.0; });
+  }
+  for_all(p.size(), [&](std::size_t i) {
+    if (!(parted_ && is_squeezed(i))) power_[i].viscous += viscous_power(i);
+  });
+  if (springs || (dampers && !keeps_pairs())) {
+    images.fill_tensors(std::span(p.deformation_gradient));
     reference_hourglass<Dim>(stencil(), p, volume_, velocity, gradient_rate_, scheme.hourglass, scheme.hourglass_damping,
                              p.acceleration, power_);
   }
@@ -70,7 +162,7 @@ void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>> velocity) {
 
 template <int Dim>
 double Body<Dim>::largest_wave_number() {
-  if (!in_reference_frame() || scheme.correction == Correction::quadratic)
+  if (!keeps_pairs())
     throw std::invalid_argument("the largest frequency is there for the reference frame with the correction none or linear");
   Particles<Dim>& p = particles;
   const auto n = static_cast<std::int64_t>(p.size());
@@ -80,14 +172,18 @@ double Body<Dim>::largest_wave_number() {
     const auto i = static_cast<std::size_t>(k);
     fastest = std::max(fastest, reference_speed<Dim>(p.deformation_gradient[i], p.sound_speed[i]));
   }
-  return largest_frequency<Dim>(stencil(), p, volume_, linear_, undeformed_) * smoothing_length() / fastest;
+  return largest_frequency<Dim>(stencil(), weights_, p, linear(), undeformed_.density[0]) * smoothing_length() / fastest;
 }
 
 #define FURROW_INSTANTIATE(Dim)                                                       \
   template void Body<Dim>::build_reference();                                         \
   template void Body<Dim>::open_cracks();                                             \
-  template void Body<Dim>::accelerate_in_reference(std::span<const Vector<Dim>>);     \
-  template double Body<Dim>::largest_wave_number();
+  template void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>>);     \
+  template double Body<Dim>::largest_wave_number();                                   \
+  template double Body<Dim>::respond_in_reference(double);                            \
+  template Matrix<Dim> Body<Dim>::pull(std::size_t);                                  \
+  template void Body<Dim>::strain_fast_part(double);                                \
+  template void Body<Dim>::look_at_pairs();
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)
 #undef FURROW_INSTANTIATE

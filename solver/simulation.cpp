@@ -32,21 +32,23 @@ void Simulation<Dim>::step(double end) {
   Particles<Dim>& p = body.particles;
   const std::size_t n = p.size();
   if (control.stability > 0.0 && steps_ % frequency_every == 0) wave_number_ = body.largest_wave_number();
-  StepLength length = step_length(body, compression_, control, wave_number_);
+  StepLength length = step_length(body, compression_, control, wave_number_, slow_wave_number_);
   const double grown = steps_ == 0 ? control.first * length.dt : control.growth * dt_;
-  if (!control.fixed && (steps_ == 0 || control.growth > 0.0) && grown < length.dt) length = {grown, StepLimiter::growth};
+  if (!control.fixed && (steps_ == 0 || control.growth > 0.0) && grown < length.dt) {
+    length.dt = grown;
+    length.limiter = StepLimiter::growth;
+  }
   const bool last = time_ + length.dt >= end;
   const double dt = last ? end - time_ : length.dt;
   limiter_ = last ? StepLimiter::end_of_run : length.limiter;
 
   // Kick to the middle of the step.
+  const int sub_steps = body.has_fast_part() ? static_cast<int>(std::ceil(dt / length.part)) : 1;
+  body.part();
   for_all(n, [&](std::size_t i) { p.velocity[i] += 0.5 * dt * p.acceleration[i]; });
   body.prescribe(time_ + 0.5 * dt, p.velocity);
 
-  // Drift there, let the stress answer the motion of the whole step, drift on to its end.
-  drift(0.5 * dt);
-  compression_ = body.respond(dt, steps_);
-  drift(0.5 * dt);
+  move(dt, sub_steps);
 
   // Viscosity and damping depend on the velocity at the end of the step: predicted with the old acceleration.
   predicted_.resize(p.position.size());
@@ -58,13 +60,20 @@ void Simulation<Dim>::step(double end) {
   // Kick to the end.
   for_all(n, [&](std::size_t i) { p.velocity[i] += 0.5 * dt * p.acceleration[i]; });
   body.prescribe(time_ + dt, p.velocity);
+  body.join();
 
   time_ = last ? end : time_ + dt;
   dt_ = dt;
   ++steps_;
+  sub_steps_ += sub_steps;
+  particle_steps_ += static_cast<std::int64_t>(n + body.fast_part().squeezed * static_cast<std::size_t>(sub_steps - 1));
   if (first_dt_ == 0.0) first_dt_ = length.dt;
   account(dt);
   if (last || steps_ % stock_every == 0) take_stock();
+  if (body.scheme.sub_cycling && control.stability > 0.0 && !control.fixed && steps_ % fast_part_every == 0) {
+    slow_wave_number_ = body.choose_fast_part(control.slow_stability / control.stability);
+    powers_ = powers();
+  }
   check();
 }
 
@@ -74,6 +83,18 @@ void Simulation<Dim>::run_until(double end, const std::function<void(const Simul
     step(end);
     if (observe) observe(*this);
   }
+}
+
+template <int Dim>
+void Simulation<Dim>::move(double dt, int sub_steps) {
+  if (body.has_fast_part()) {
+    compression_ = body.respond_in_sub_steps(dt, sub_steps);
+    return;
+  }
+  // Drift to the middle, let the stress answer the motion of the whole step, drift on to its end.
+  drift(0.5 * dt);
+  compression_ = body.respond(dt, steps_);
+  drift(0.5 * dt);
 }
 
 template <int Dim>
@@ -116,9 +137,11 @@ void Simulation<Dim>::account(double dt) {
   energy_.layer += 0.5 * dt * (before.layer + powers_.layer);
   if (!body.loads.motions.empty())
     energy_.external += body.prescribed_kinetic_energy(time_) - body.prescribed_kinetic_energy(time_ - dt);
+  if (body.has_fast_part()) energy_.viscous += body.fast_viscous_work();
   if (!body.scheme.energy) return;
   for_all(p.size(), [&](std::size_t i) { p.internal_energy[i] += dt * body.power()[i].viscous; });
   deposited_ += dt * powers_.viscous;
+  if (body.has_fast_part()) deposited_ += body.fast_deposit();
 }
 
 template <int Dim>
@@ -206,8 +229,8 @@ void Simulation<Dim>::check() const {
 
 template <int Dim>
 typename Simulation<Dim>::Clock Simulation<Dim>::clock() const {
-  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, wave_number_, deposited_,
-          steps_, limiter_, energy_, powers_};
+  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, wave_number_, slow_wave_number_, deposited_,
+          steps_, sub_steps_, particle_steps_, limiter_, energy_, powers_};
 }
 
 template <int Dim>
@@ -220,8 +243,11 @@ void Simulation<Dim>::resume(const Clock& clock) {
   energy_scale_ = clock.energy_scale;
   initial_internal_ = clock.initial_internal;
   wave_number_ = clock.wave_number;
+  slow_wave_number_ = clock.slow_wave_number;
   deposited_ = clock.deposited;
   steps_ = clock.steps;
+  sub_steps_ = clock.sub_steps;
+  particle_steps_ = clock.particle_steps;
   limiter_ = clock.limiter;
   energy_ = clock.energy;
   powers_ = clock.powers;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/particles/neighbours.hpp"
+#include "solver/particles/ordered_sum.hpp"
 
 namespace furrow {
 
@@ -61,6 +62,24 @@ class Images {
       }
     return images;
   }
+  /// The particle that neighbour j, an image, is an image of.
+  std::size_t source_of(std::size_t j) const { return source(j - count_); }
+  /// Images of some particles alone: particle i is now number local[i] of `count`, or not there where that is -1. `local_image` says
+  /// the same of images.
+  Images of_some(std::span<const std::int32_t> local, std::size_t count, std::vector<std::int32_t>& local_image) const {
+    Images some = *this;
+    some.count_ = count;
+    some.source_.clear();
+    some.map_.clear();
+    local_image.assign(size(), -1);
+    for (std::size_t k = 0; k < size(); ++k) {
+      if (local[source(k)] < 0) continue;
+      local_image[k] = static_cast<std::int32_t>(count + some.source_.size());
+      some.source_.push_back(local[source(k)]);
+      some.map_.push_back(map_[k]);
+    }
+    return some;
+  }
   /// Widens a box of displacements until it holds those of all images as well.
   void include_images(Vector<Dim>& low, Vector<Dim>& high) const {
     const Vector<Dim> centre = 0.5 * (low + high), half = 0.5 * (high - low);
@@ -82,18 +101,18 @@ class Images {
 
   /// Each fill sets the images behind the particles proper from their sources.
   void fill(std::span<double> scalars) const {
-    for (std::size_t k = 0; k < size(); ++k) scalars[count_ + k] = scalars[source(k)];
+    for_all(size(), [&](std::size_t k) { scalars[count_ + k] = scalars[source(k)]; });
   }
   void fill_positions(std::span<Vector<Dim>> x) const {
-    for (std::size_t k = 0; k < size(); ++k) x[count_ + k] = map(k).turn * x[source(k)] + map(k).shift;
+    for_all(size(), [&](std::size_t k) { x[count_ + k] = map(k).turn * x[source(k)] + map(k).shift; });
   }
   void fill_velocities(std::span<Vector<Dim>> v) const {
-    for (std::size_t k = 0; k < size(); ++k) v[count_ + k] = map(k).turn * v[source(k)];
+    for_all(size(), [&](std::size_t k) { v[count_ + k] = map(k).turn * v[source(k)]; });
   }
   /// For what is multiplied with grad W in the momentum sum: T A T, the stress seen in the mirror. It makes that sum the dual
   /// of the velocity gradient with images, so that energy is conserved.
   void fill_tensors(std::span<Matrix<Dim>> A) const {
-    for (std::size_t k = 0; k < size(); ++k) A[count_ + k] = map(k).turn * A[source(k)] * map(k).turn;
+    for_all(size(), [&](std::size_t k) { A[count_ + k] = map(k).turn * A[source(k)] * map(k).turn; });
   }
   /// The same for tensors that act on (s_a, s_a s_b for a <= b): T A T_p, where T_p is what T does to those terms.
   template <int Terms>

@@ -4,20 +4,8 @@
 
 #include "solver/modules.hpp"
 #include "solver/particles/ordered_sum.hpp"
-#include "solver/schemes/velocity_gradient.hpp"
 
 namespace furrow {
-
-template <int Dim>
-Matrix<Dim> first_piola(const Matrix<Dim>& cauchy, const Matrix<Dim>& F, double J) {
-  return J * cauchy * F.inverse().transpose();
-}
-
-template <int Dim>
-double reference_speed(const Matrix<Dim>& F, double c) {
-  const Matrix<Dim> inverse = F.inverse();
-  return c * std::sqrt((inverse * inverse.transpose()).cwiseAbs().rowwise().sum().maxCoeff());
-}
 
 namespace {
 
@@ -53,13 +41,12 @@ struct HourglassSum {
 }  // namespace
 
 template <int Dim>
-double largest_frequency(const Stencil<Dim>& reference, const Particles<Dim>& p, std::span<const double> volume,
-                         std::span<const Matrix<Dim>> correction, Particles<Dim>& undeformed) {
+double largest_frequency(const Stencil<Dim>& reference, const PairWeights& weights, const Particles<Dim>& p,
+                         std::span<const Matrix<Dim>> correction, double reference_density,
+                         std::span<const std::uint8_t> left_out) {
   const std::size_t n = p.size(), extended = reference.position.size();
   std::vector<Vector<Dim>> u(extended, Vector<Dim>::Zero()), a(n);
-  std::vector<Matrix<Dim>> gradient(n);
-  std::vector<MomentumPower> power(n);
-  MomentumWorkspace<Dim> workspace;
+  std::vector<Matrix<Dim>> gradient(n), A(extended);
   // Noise of the place, odd about the planes through the origin: a body and its half behind a plane of symmetry take the same
   // steps, whatever the order of their particles. Knuth's generator, the same on every machine.
   for (std::size_t i = 0; i < n; ++i) {
@@ -73,20 +60,23 @@ double largest_frequency(const Stencil<Dim>& reference, const Particles<Dim>& p,
       u[i][k] = X[k] < 0.0 ? -a : a;
     }
   }
-  const auto view = correction.empty() ? CorrectionView<Dim>{} : CorrectionView<Dim>{correction};
   const auto norm = [&](std::span<const Vector<Dim>> w) {
     return std::sqrt(std::get<0>(ordered_sum<1>(n, [&](std::size_t i, auto& sum) { sum[0] += p.mass[i] * w[i].squaredNorm(); })));
   };
   double omega = 0.0;
   for (int iteration = 0; iteration < 10; ++iteration) {
     if (reference.images) reference.images->fill_velocities(std::span(u));
-    velocity_gradient<Dim>(reference, volume, u, correction, gradient);
+    reference_gradient<Dim>(reference, weights, u, correction, gradient);
     for_all(n, [&](std::size_t i) {
+      A[i].setZero();
+      if (!left_out.empty() && left_out[i]) return;
       const Matrix<Dim> inverse = p.deformation_gradient[i].inverse();
-      const double modulus = undeformed.density[i] * p.sound_speed[i] * p.sound_speed[i];
-      undeformed.stress[i].template topLeftCorner<Dim, Dim>() = modulus * (gradient[i] * inverse).trace() * inverse.transpose();
+      const double modulus = reference_density * p.sound_speed[i] * p.sound_speed[i];
+      const Matrix<Dim> P = modulus * (gradient[i] * inverse).trace() * inverse.transpose();
+      A[i] = correction.empty() ? P : Matrix<Dim>(P * correction[i].transpose());
     });
-    momentum<Dim>(reference, undeformed, u, view, {}, workspace, a, power);
+    if (reference.images) reference.images->fill_tensors(std::span(A));
+    reference_divergence<Dim>(reference, weights, A, reference_density, a);
     const double ratio = norm(a) / norm(u);
     omega = std::sqrt(ratio);
     for_all(n, [&](std::size_t i) { u[i] = a[i] / ratio; });
@@ -136,10 +126,8 @@ void reference_hourglass(const Stencil<Dim>& reference, const Particles<Dim>& p,
 }
 
 #define FURROW_INSTANTIATE(Dim)                                                                                               \
-  template Matrix<Dim> first_piola<Dim>(const Matrix<Dim>&, const Matrix<Dim>&, double);                                      \
-  template double reference_speed<Dim>(const Matrix<Dim>&, double);                                                           \
-  template double largest_frequency<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const double>,                 \
-                                         std::span<const Matrix<Dim>>, Particles<Dim>&);                                      \
+  template double largest_frequency<Dim>(const Stencil<Dim>&, const PairWeights&, const Particles<Dim>&,                      \
+                                         std::span<const Matrix<Dim>>, double, std::span<const std::uint8_t>);                \
   template void reference_hourglass<Dim>(const Stencil<Dim>&, const Particles<Dim>&, std::span<const double>,                 \
                                          std::span<const Vector<Dim>>, std::span<const Matrix<Dim>>, double, double,          \
                                          std::span<Vector<Dim>>, std::span<MomentumPower>);

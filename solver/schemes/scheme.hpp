@@ -48,6 +48,7 @@ struct Scheme {
   std::optional<BulkViscosity> bulk_viscosity;           ///< in the reference frame, in place of `viscosity`
   double hourglass = 0.0;                                ///< chi of the hourglass control; 0 = off
   double hourglass_damping = 0.0;                        ///< zeta, in the reference frame; 0 = off
+  bool sub_cycling = false;                              ///< in the reference frame: squeezed particles take short steps (fast_part.hpp)
   bool cracks = false;                                   ///< in the reference frame: failed particles cut pairs (cracks.hpp)
   double xsph = 0.0;                                     ///< eps of XSPH; 0 = off
   bool energy = true;                                    ///< stress work and viscous heat go into internal energy

@@ -55,7 +55,8 @@ inline Tensor rotation(const Tensor& W) {
     const double c = 1.0 - b * x2, s = a * W(1, 0);
     return (Tensor() << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0).finished();
   }
-  return Tensor::Identity() + a * W + b * W * W;
+  const Vector<3> w(W(2, 1), W(0, 2), W(1, 0));   // W^2 = w w^T - x^2 I
+  return (1.0 - b * x2) * Tensor::Identity() + a * W + b * w * w.transpose();
 }
 
 /// R a R^T.
