@@ -190,6 +190,13 @@ void DynamicRun<Dim>::until(double end, int rows, int snapshots, const std::func
   history_->flush();
   std::filesystem::remove(run_.folder() / "checkpoint.h5");
   run_.file("history", run_.folder() / "history.h5");
+  if (simulation_.sub_steps() > simulation_.steps())
+    run_.note(fmt::format("The {} steps are those of the whole body; particles that were squeezed took {} shorter ones, which make "
+                          "{:.1f} % more steps of particles.",
+                          simulation_.steps(), simulation_.sub_steps(),
+                          100.0 * (static_cast<double>(simulation_.particle_steps()) /
+                                       static_cast<double>(simulation_.steps() * static_cast<std::int64_t>(simulation_.body.particles.size())) -
+                                   1.0)));
   run_.count(simulation_.steps(), static_cast<long>(simulation_.body.particles.size()));
 }
 

@@ -25,6 +25,7 @@ void Body<Dim>::build_reference() {
   undeformed_.stress.assign(n, Tensor::Zero());
   for (std::size_t i = 0; i < p.position.size(); ++i) volume_[i] = p.mass[i] / rho_0;
   velocity_gradient_.assign(n, Matrix<Dim>::Zero());
+  viscous_pressure_.assign(n, 0.0);
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
   cut_cracks(neighbours_, p, spacing);   // those of a run that goes on
   look_at_pairs();
@@ -118,7 +119,6 @@ Matrix<Dim> Body<Dim>::pull(std::size_t i) {
 template <int Dim>
 void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
   Particles<Dim>& p = particles;
-  viscous_pressure_.resize(p.size());
   if (keeps_pairs()) workspace_.A.resize(p.position.size());
   for_all(p.size(), [&](std::size_t i) {
     if (!keeps_pairs())
