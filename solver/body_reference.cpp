@@ -163,7 +163,7 @@ void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
 template <int Dim>
 double Body<Dim>::largest_wave_number() {
   if (!keeps_pairs())
-    throw std::invalid_argument("the largest frequency is there for the reference frame with the correction none or linear");
+    throw std::invalid_argument("the largest frequency is there for the reference frame with the correction none or linear, and no periodic box");
   Particles<Dim>& p = particles;
   const auto n = static_cast<std::int64_t>(p.size());
   double fastest = 0.0;
