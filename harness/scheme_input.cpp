@@ -73,7 +73,6 @@ void exercise(Run& run, const Scheme& scheme) {
     run.exercises("schemes/momentum");
   } else {
     run.exercises("schemes/reference_frame");
-    if (scheme.correction == Correction::quadratic) run.exercises("schemes/momentum");
   }
   if (scheme.correction == Correction::linear) run.exercises("schemes/kernel_correction");
   if (scheme.correction == Correction::quadratic) run.exercises("schemes/quadratic_gradient");

@@ -279,7 +279,11 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   lend_velocities(p.velocity, false);
   if (keeps_pairs()) {
     images.fill_velocities(p.velocity);
-    reference_gradient<Dim>(s, weights_, p.velocity, linear(), gradient_rate_);
+    if (keeps_weights())
+      reference_gradient<Dim>(s, weights_, p.velocity, linear(), gradient_rate_);
+    else if constexpr (Dim == 2)
+      quadratic_reference_gradient(s, pair_gradients_, p.velocity, gradient_rate_);
+    if (neighbour_strain) neighbour_strain(std::span(gradient_rate_).first(p.size()));
     return respond_in_reference(dt);
   }
   // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.

@@ -15,6 +15,7 @@
 #include "solver/particles/images.hpp"
 #include "solver/schemes/fast_part.hpp"
 #include "solver/schemes/momentum.hpp"
+#include "solver/schemes/quadratic_sums.hpp"
 #include "solver/schemes/reference_sums.hpp"
 #include "solver/schemes/scheme.hpp"
 
@@ -149,9 +150,10 @@ class Body {
   void plain_velocity_gradient(double dt);
   CorrectionView<Dim> view_of_correction() const;
   bool in_reference_frame() const { return scheme.frame == Frame::reference; }
-  /// In the reference frame but for quadratic gradients and periodic boxes: sums know what the kernel says of each pair
-  /// (reference_sums.hpp).
-  bool keeps_pairs() const { return in_reference_frame() && scheme.correction != Correction::quadratic && !box.any_periodic(); }
+  /// In the reference frame but for periodic boxes: sums know what the kernel says of each pair (reference_sums.hpp), or with
+  /// quadratic gradients what the fit makes of it (quadratic_sums.hpp).
+  bool keeps_pairs() const { return in_reference_frame() && !box.any_periodic(); }
+  bool keeps_weights() const { return keeps_pairs() && scheme.correction != Correction::quadratic; }
   std::span<const Matrix<Dim>> linear() const { return scheme.correction == Correction::linear ? linear_ : std::span<const Matrix<Dim>>(); }
   void build_reference();
   /// The rest of respond() when gradient_rate_ is there, but for the fast part. Returns the largest -tr L.
@@ -176,6 +178,7 @@ class Body {
   std::vector<Matrix<Dim>> velocity_gradient_, linear_;
   std::vector<Matrix<Dim>> gradient_rate_;   ///< in the reference frame: dv/dX, F'
   PairWeights weights_;
+  PairGradients pair_gradients_;
   FastPart<Dim> fast_;
   bool parted_ = false;
   double fast_viscous_power_ = 0.0, fast_viscous_work_ = 0.0, fast_deposit_ = 0.0;

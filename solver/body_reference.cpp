@@ -35,7 +35,9 @@ void Body<Dim>::build_reference() {
 template <int Dim>
 void Body<Dim>::look_at_pairs() {
   make_correction();
-  if (keeps_pairs()) weigh_pairs<Dim>(stencil(), volume_, weights_);
+  if (keeps_weights()) weigh_pairs<Dim>(stencil(), volume_, weights_);
+  if constexpr (Dim == 2)
+    if (keeps_pairs() && !keeps_weights()) weigh_quadratic_pairs(stencil(), volume_, quadratic_, pair_gradients_);
 }
 
 template <int Dim>
@@ -113,7 +115,7 @@ Matrix<Dim> Body<Dim>::pull(std::size_t i) {
   viscous_pressure_[i] = q;
   const Matrix<Dim> sigma = p.stress[i].template topLeftCorner<Dim, Dim>() - q * Matrix<Dim>::Identity();
   const Matrix<Dim> P = first_piola<Dim>(sigma, p.deformation_gradient[i], undeformed_.density[i] / p.density[i]);
-  return keeps_pairs() && scheme.correction == Correction::linear ? Matrix<Dim>(P * linear_[i].transpose()) : P;
+  return keeps_weights() && scheme.correction == Correction::linear ? Matrix<Dim>(P * linear_[i].transpose()) : P;
 }
 
 template <int Dim>
@@ -127,6 +129,7 @@ void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
       workspace_.A[i] = parted_ && is_squeezed(i) ? Matrix<Dim>(Matrix<Dim>::Zero()) : pull(i);
   });
   const bool springs = scheme.hourglass > 0.0, dampers = scheme.hourglass_damping > 0.0;
+  const bool damped_at_once = dampers && !springs && keeps_weights();
   if (springs || dampers) {
     images.fill_tensors(std::span(gradient_rate_));
     images.fill_positions(p.position);
@@ -138,12 +141,14 @@ void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
     has_run(Module::reference_frame);
     images.fill_tensors(std::span(workspace_.A));
     damper_power_.assign(p.size(), 0.0);
-    if (dampers && !springs) {
+    if (damped_at_once) {
       has_run(Module::hourglass);
       damped_reference_divergence<Dim>(stencil(), weights_, workspace_.A, p, velocity, gradient_rate_, scheme.hourglass_damping,
                                        undeformed_.density[0], p.acceleration, damper_power_);
-    } else {
+    } else if (keeps_weights()) {
       reference_divergence<Dim>(stencil(), weights_, workspace_.A, undeformed_.density[0], p.acceleration);
+    } else if constexpr (Dim == 2) {
+      quadratic_reference_divergence(stencil(), pair_gradients_, workspace_.A, undeformed_.density[0], p.acceleration);
     }
     for_all(p.size(), [&](std::size_t i) { power_[i] = {0.0, damper_power_[i], 0.0}; });
   } else {
@@ -153,7 +158,7 @@ void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
   for_all(p.size(), [&](std::size_t i) {
     if (!(parted_ && is_squeezed(i))) power_[i].viscous += viscous_power(i);
   });
-  if (springs || (dampers && !keeps_pairs())) {
+  if (springs || (dampers && !damped_at_once)) {
     images.fill_tensors(std::span(p.deformation_gradient));
     reference_hourglass<Dim>(stencil(), p, volume_, velocity, gradient_rate_, scheme.hourglass, scheme.hourglass_damping,
                              p.acceleration, power_);
@@ -162,7 +167,7 @@ void Body<Dim>::accelerate_in_reference(std::span<Vector<Dim>> velocity) {
 
 template <int Dim>
 double Body<Dim>::largest_wave_number() {
-  if (!keeps_pairs())
+  if (!keeps_weights())
     throw std::invalid_argument("the largest frequency is there for the reference frame with the correction none or linear, and no periodic box");
   Particles<Dim>& p = particles;
   const auto n = static_cast<std::int64_t>(p.size());

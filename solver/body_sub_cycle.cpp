@@ -7,7 +7,7 @@ namespace furrow {
 
 template <int Dim>
 double Body<Dim>::choose_fast_part(double slow_ratio) {
-  if (!keeps_pairs()) throw std::invalid_argument("sub-cycling is there for the reference frame with the correction none or linear");
+  if (!keeps_weights()) throw std::invalid_argument("sub-cycling is there for the reference frame with the correction none or linear");
   if (!loads.motions.empty() || !loads.faces.empty() || !layers.empty() || !rigid_bodies.empty() || neighbour_body)
     throw std::invalid_argument("sub-cycling is there for bodies of which nothing is prescribed or held and that no other body is near");
   const Particles<Dim>& p = particles;
