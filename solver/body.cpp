@@ -76,7 +76,7 @@ void Body<Dim>::hold_face(std::string name, const std::vector<std::vector<std::i
   pulled.refresh_neighbours(true);
   Particles<Dim>& p = pulled.particles;
   p.stress.assign(p.size(), Tensor::Identity());
-  momentum<Dim>(pulled.stencil(), p, p.velocity, pulled.correction(0.0), {}, pulled.workspace_, p.acceleration, pulled.power_);
+  momentum<Dim>(pulled.stencil(), p, p.velocity, pulled.correction(), {}, pulled.workspace_, p.acceleration, pulled.power_);
 
   HeldFace face{std::move(name), {}};
   for (const std::vector<std::int32_t>& ids : columns) {
@@ -231,8 +231,15 @@ void Body<Dim>::fill_images() {
 }
 
 template <int Dim>
-CorrectionView<Dim> Body<Dim>::correction(double ahead) {
+CorrectionView<Dim> Body<Dim>::correction() {
   if (in_reference_frame()) return view_of_correction();
+  find_volumes(0.0);
+  make_correction();
+  return view_of_correction();
+}
+
+template <int Dim>
+void Body<Dim>::find_volumes(double ahead) {
   const Particles<Dim>& p = particles;
   const auto n = static_cast<std::int64_t>(p.size());
 #pragma omp parallel for schedule(static)
@@ -241,8 +248,6 @@ CorrectionView<Dim> Body<Dim>::correction(double ahead) {
     volume_[i] = p.mass[i] / (p.density[i] + ahead * p.density_rate[i]);
   }
   images.fill(volume_);
-  make_correction();
-  return view_of_correction();
 }
 
 template <int Dim>
@@ -265,8 +270,7 @@ CorrectionView<Dim> Body<Dim>::view_of_correction() const {
 template <int Dim>
 void Body<Dim>::plain_velocity_gradient(double dt) {
   const Particles<Dim>& p = particles;
-  if (!scheme.dual_gradient || scheme.correction != Correction::none)
-    return furrow::velocity_gradient<Dim>(stencil(), volume_, p.velocity, linear_, velocity_gradient_);
+  if (!scheme.dual_gradient) return furrow::velocity_gradient<Dim>(stencil(), volume_, p.velocity, {}, velocity_gradient_);
   // L_i = 1/rho_i sum_j m_j (v_j - v_i) (x) grad_i W_ij, whose power with the stress is that of Eqs 8 and 10 whatever the densities.
   furrow::velocity_gradient<Dim>(stencil(), p.mass, p.velocity, {}, velocity_gradient_);
   for_all(p.size(), [&](std::size_t i) { velocity_gradient_[i] /= p.density[i] + 0.5 * dt * p.density_rate[i]; });
@@ -287,11 +291,15 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
     return respond_in_reference(dt);
   }
   // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.
-  correction(0.5 * dt);
-  if (scheme.correction != Correction::quadratic)
+  if (!in_reference_frame()) find_volumes(0.5 * dt);
+  if (scheme.correction == Correction::linear) {
+    corrected_velocity_gradient<Dim>(s, volume_, p.velocity, scheme.least_span, linear_, velocity_gradient_);
+  } else if (scheme.correction == Correction::none) {
     plain_velocity_gradient(dt);
-  else if constexpr (Dim == 2)
+  } else if constexpr (Dim == 2) {
+    if (!in_reference_frame()) make_correction();
     quadratic_velocity_gradient<Dim>(s, volume_, p.velocity, quadratic_, velocity_gradient_);
+  }
   return_velocities(p.velocity);
   if (neighbour_strain) neighbour_strain(velocity_gradient_);
   for (const BoundaryLayer<Dim>& layer : layers)   // layers do not strain

@@ -143,10 +143,12 @@ class Body {
   void extrapolate_stresses(const Vector<Dim>& gravity);
   /// Forces and power of layers after the sum over pairs, whose accelerations they take.
   void account_layers(std::span<const Vector<Dim>> velocity);
-  /// Volumes and corrections for where particles are now, their densities `ahead` of what they are (s).
-  CorrectionView<Dim> correction(double ahead);
+  /// Volumes and corrections for where particles are now.
+  CorrectionView<Dim> correction();
+  /// Volumes with densities `ahead` of what they are (s).
+  void find_volumes(double ahead);
   void make_correction();
-  /// Without correction or with a linear one, in the middle of a step of dt.
+  /// Without correction, in the middle of a step of dt.
   void plain_velocity_gradient(double dt);
   CorrectionView<Dim> view_of_correction() const;
   bool in_reference_frame() const { return scheme.frame == Frame::reference; }

@@ -20,7 +20,7 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
     lend_velocities(velocity, true);
     extrapolate_stresses(gravity);
     const MomentumTerms terms{scheme.viscosity, scheme.artificial_stress, spacing};
-    momentum<Dim>(stencil(), p, velocity, correction(0.0), terms, workspace_, p.acceleration, power_);
+    momentum<Dim>(stencil(), p, velocity, correction(), terms, workspace_, p.acceleration, power_);
     if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
     account_layers(velocity);
     return_velocities(velocity);

@@ -1,8 +1,5 @@
 #include "solver/schemes/kernel_correction.hpp"
 
-#include <Eigen/LU>
-#include <cmath>
-
 #include "solver/modules.hpp"
 
 namespace furrow {
@@ -33,9 +30,7 @@ void kernel_correction(const Stencil<Dim>& stencil, std::span<const double> volu
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j) {
       linear.add_outer(pair.x_ij, (-V_j) * pair.grad);
     });
-    const Matrix<Dim> M = sum(linear);
-    const double isotropic = std::pow(M.trace() / Dim, Dim);
-    out[i] = M.determinant() > least_span * isotropic ? Matrix<Dim>(M.inverse()) : Matrix<Dim>(Matrix<Dim>::Identity());
+    out[i] = inverse_of_moments<Dim>(sum(linear), least_span);
   });
 }
 

@@ -17,4 +17,10 @@ template <int Dim>
 void velocity_gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const Vector<Dim>> velocity,
                        std::span<const Matrix<Dim>> correction, std::span<Matrix<Dim>> out);
 
+/// The same, with the corrections of kernel_correction.hpp made in the same pass: to the last bit what both would give, for a third
+/// less than they cost.
+template <int Dim>
+void corrected_velocity_gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::span<const Vector<Dim>> velocity,
+                                 double least_span, std::span<Matrix<Dim>> correction, std::span<Matrix<Dim>> out);
+
 }  // namespace furrow
