@@ -53,9 +53,10 @@ struct JohnsonCook {
     if (intact == 0.0) return closed_step(eos, state, Tensor::Zero(), increment, closing);
 
     const Tensor s_0 = deviator(state.stress), way = 2.0 * G * deviator(increment.strain);
-    const double q_yield = intact * strength.flow_stress(state.plastic_strain, total_rate(increment), state.temperature).value;
+    const auto powers = strength.powers(state.plastic_strain, state.temperature);
+    const double q_yield = intact * strength.flow_stress(powers, total_rate(increment)).value;
     const StraightPath path = straight_path(s_0, way, form.root_of_j2 ? q_yield : HUGE_VAL);
-    const double x = form.root_of_j2 ? plastic_increment(state, path.q_trial, q_yield, intact, increment)
+    const double x = form.root_of_j2 ? plastic_increment(state, powers, path.q_trial, q_yield, intact, increment)
                                      : plastic_increment_without_root(path.q_trial, q_yield);
     const double q = std::max(0.0, path.q_trial - 3.0 * G * x);
     if (x > 0.0) {
@@ -85,13 +86,13 @@ struct JohnsonCook {
   /// Root x of g(x) = q_trial - 3 G x - intact sigma_y; 0 in the elastic range. Newton's method inside a bracket that every
   /// evaluation narrows; where Newton leaves the bracket or would crawl it is halved.
   /// The yield stress at the total rate, q_yield, is above that without flow: a trial beyond it is plastic, and close to the root.
-  double plastic_increment(const MaterialState& state, double q_trial, double q_yield, double intact,
-                           const Increment& increment) const {
+  double plastic_increment(const MaterialState& state, const JohnsonCookStrength::Powers& powers, double q_trial, double q_yield,
+                           double intact, const Increment& increment) const {
     const double G = shear_modulus, b = heating(state.density);
     const double fixed_rate = form.plastic_rate ? 0.0 : total_rate(increment);
     const auto sigma_y = [&](double x) {
       const double rate = form.plastic_rate ? x / increment.dt : fixed_rate;
-      return strength.flow_stress(state.plastic_strain + x, rate, state.temperature + b * (q_trial - 3.0 * G * x) * x);
+      return strength.flow_stress(strength.moved(powers, x, state.temperature + b * (q_trial - 3.0 * G * x) * x), rate);
     };
     const double excess = q_trial - (q_trial > q_yield ? q_yield : intact * sigma_y(0.0).value);
     if (!(excess > 0.0)) return 0.0;

@@ -28,16 +28,45 @@ struct JohnsonCookStrength {
   /// Rate over reference rate, at least 1: the law does not soften below the rate at which A, B and n were measured.
   double rate_ratio(double rate) const { return std::max(1.0, rate / reference_rate); }
 
-  /// sigma_y = [A + B eps_p^n] [1 + C ln(rate ratio)] [1 - T*^m].
-  FlowStress flow_stress(double eps_p, double rate, double T) const {
+  /// B eps_p^n and T*^m with what they are powers of.
+  struct Powers {
+    double eps_p, hardened, theta, soft;
+  };
+  Powers powers(double eps_p, double T) const {
     const double hardened = B == 0.0 ? 0.0 : B * std::pow(eps_p, n);
-    const double ratio = rate_ratio(rate);
     const double theta = homologous_temperature(T);
-    const double soft = theta > 0.0 ? std::pow(theta, m) : 0.0;
-    const double Y = A + hardened, R = 1.0 + C * std::log(ratio), S = 1.0 - soft;
-    const bool softening = theta > 0.0 && theta < 1.0;
-    return {Y * R * S, hardened == 0.0 ? 0.0 : n * hardened / eps_p * R * S, ratio > 1.0 ? Y * C * S : 0.0,
-            softening ? -Y * R * m * soft / (theta * (melting_temperature - reference_temperature)) : 0.0};
+    return {eps_p, hardened, theta, theta > 0.0 ? std::pow(theta, m) : 0.0};
+  }
+  /// The same after a plastic strain increment, at a temperature T: to round-off powers(p.eps_p + x, T), but where both change by
+  /// little without a power of their own.
+  Powers moved(const Powers& p, double x, double T) const {
+    const double theta = homologous_temperature(T);
+    const double hardened = B == 0.0 ? 0.0
+                            : x < near * p.eps_p ? p.hardened * power_near_one(x / p.eps_p, n)
+                                                 : B * std::pow(p.eps_p + x, n);
+    const double soft = theta == p.theta ? p.soft
+                        : std::abs(theta - p.theta) < near * p.theta ? p.soft * power_near_one((theta - p.theta) / p.theta, m)
+                                                                     : std::pow(theta, m);
+    return {p.eps_p + x, hardened, theta, soft};
+  }
+
+  /// sigma_y = [A + B eps_p^n] [1 + C ln(rate ratio)] [1 - T*^m].
+  FlowStress flow_stress(const Powers& p, double rate) const {
+    const double ratio = rate_ratio(rate);
+    const double Y = A + p.hardened, R = 1.0 + C * std::log(ratio), S = 1.0 - p.soft;
+    const bool softening = p.theta > 0.0 && p.theta < 1.0;
+    return {Y * R * S, p.hardened == 0.0 ? 0.0 : n * p.hardened / p.eps_p * R * S, ratio > 1.0 ? Y * C * S : 0.0,
+            softening ? -Y * R * m * p.soft / (p.theta * (melting_temperature - reference_temperature)) : 0.0};
+  }
+  FlowStress flow_stress(double eps_p, double rate, double T) const { return flow_stress(powers(eps_p, T), rate); }
+
+ private:
+  static constexpr double near = 0.02;
+  /// (1 + r)^a for |r| < near and a from 0 to 3, to round-off: its binomial series; the first term left out is below 1e-17.
+  static double power_near_one(double r, double a) {
+    double sum = 1.0;
+    for (int k = 8; k > 0; --k) sum = 1.0 + (a - (k - 1)) * (1.0 / k) * r * sum;
+    return sum;
   }
 };
 

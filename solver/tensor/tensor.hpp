@@ -44,8 +44,8 @@ inline Tensor rotation(const Tensor& W) {
   if (x2 == 0.0) return Tensor::Identity();
   double a, b;   // sin x / x, (1 - cos x)/x^2
   if (x2 < 0.01) {   // their series, to round-off: a step turns by little
-    a = 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0)));
-    b = 0.5 * (1.0 - x2 / 12.0 * (1.0 - x2 / 30.0 * (1.0 - x2 / 56.0 * (1.0 - x2 / 90.0))));
+    a = 1.0 - x2 * (1.0 / 6.0) * (1.0 - x2 * (1.0 / 20.0) * (1.0 - x2 * (1.0 / 42.0) * (1.0 - x2 * (1.0 / 72.0))));
+    b = 0.5 * (1.0 - x2 * (1.0 / 12.0) * (1.0 - x2 * (1.0 / 30.0) * (1.0 - x2 * (1.0 / 56.0) * (1.0 - x2 * (1.0 / 90.0)))));
   } else {
     const double x = std::sqrt(x2), s = std::sin(0.5 * x) / (0.5 * x);
     a = std::sin(x) / x;
@@ -62,7 +62,11 @@ inline Tensor rotation(const Tensor& W) {
 /// R a R^T.
 inline Tensor rotated(const Tensor& a, const Tensor& R) {
   const auto plane = [](const Tensor& t) { return t(0, 2) == 0.0 && t(1, 2) == 0.0 && t(2, 0) == 0.0 && t(2, 1) == 0.0; };
-  if (!plane(R) || !plane(a)) return R * a * R.transpose();
+  if (!plane(R) || !plane(a)) {   // lazy: written out in place
+    Tensor half_turned;
+    half_turned.noalias() = R.lazyProduct(a);
+    return half_turned.lazyProduct(R.transpose());
+  }
   const double b00 = R(0, 0) * a(0, 0) + R(0, 1) * a(1, 0), b01 = R(0, 0) * a(0, 1) + R(0, 1) * a(1, 1);
   const double b10 = R(1, 0) * a(0, 0) + R(1, 1) * a(1, 0), b11 = R(1, 0) * a(0, 1) + R(1, 1) * a(1, 1);
   Tensor turned = Tensor::Zero();

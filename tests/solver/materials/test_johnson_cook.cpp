@@ -51,6 +51,23 @@ TEST_CASE("Flow stress by hand", "[johnson_cook]") {
   }
 }
 
+TEST_CASE("Powers that are moved are those at the other place", "[johnson_cook]") {
+  double worst = 0.0;
+  const auto compare = [&](double a, double b) { worst = std::max(worst, std::abs(a - b) / std::max(std::abs(b), 1e-300)); };
+  for (const JohnsonCookStrength& s : {test::aluminium_strength(), iron_strength()})
+    for (const double eps_p : {0.0, 1e-6, 0.03, 1.7})
+      for (const double T : {77.0, 294.0, 294.1, 600.0, 924.0, 2000.0})
+        for (const double share : {0.0, 1e-9, 1e-3, 0.0199, 0.0201, 0.5, 40.0})
+          for (const double rise : {-30.0, -1.0, 0.0, 1e-6, 0.7, 5.0, 300.0}) {
+            const double x = share * std::max(eps_p, 1e-4);
+            const auto moved = s.moved(s.powers(eps_p, T), x, T + rise), there = s.powers(eps_p + x, T + rise);
+            compare(moved.hardened, there.hardened);
+            compare(moved.soft, there.soft);
+            CHECK(moved.theta == there.theta);
+          }
+  CHECK(worst < 4e-15);
+}
+
 TEST_CASE("The return ends on the yield surface of the end of the step, for any input", "[johnson_cook]") {
   double worst = 0.0;
   int plastic = 0;
