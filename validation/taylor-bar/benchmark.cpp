@@ -1,5 +1,5 @@
-// Rods that other computations are the reference for: the copper rod on which codes agree, the whole rod behind a quarter, and
-// what each printed equation of the paper does to a rod.
+// Rods that other computations are the reference for: the copper rod on which codes agree, the whole rod behind a quarter, a rod
+// without short steps behind one with them, and what each printed equation of the paper does to a rod.
 #include <cmath>
 
 #include "harness/printed_forms.hpp"
@@ -80,6 +80,26 @@ Problem whole_rod_too(const Parameters& input) {
     run.measure("length_difference", a.length / b.length - 1.0);
     run.measure("foot_radius_difference", a.foot_radius / b.foot_radius - 1.0);
     run.measure("plastic_strain_difference", a.greatest_plastic_strain / b.greatest_plastic_strain - 1.0);
+  };
+}
+
+Problem sub_steps(const Parameters& input) {
+  const ReferenceData set = read_set(input, input.text("set"));
+  Impact apart = read_shot(input, set, input.number("shot", range::positive)).impact, together = apart;
+  if (!apart.scheme.sub_cycling) input.fail("scheme.sub_cycling", "found false, expected true: it is compared with a run without");
+  together.scheme.sub_cycling = false;
+  return [=](Run& run) {
+    Run other(run.resolution(), run.folder() / "together", run.threads());
+    const Outcome a = collide(run, apart), b = collide(other, together);
+    const double particle_steps = static_cast<double>(run.particle_steps()) / static_cast<double>(other.particle_steps());
+    run.count(other.steps(), other.particles());
+    exercise(run, apart.scheme);
+    run.exercises("particles/images");
+    run.measure("length_difference", a.length / b.length - 1.0);
+    run.measure("foot_difference", a.foot_radius / b.foot_radius - 1.0);
+    run.measure("plastic_strain_difference", a.greatest_plastic_strain / b.greatest_plastic_strain - 1.0);
+    run.measure("energy_imbalance", a.energy_imbalance);
+    run.measure("particle_steps", particle_steps);
   };
 }
 
