@@ -2,11 +2,22 @@
 #include <tuple>
 
 #include "solver/body.hpp"
+#include "solver/boundaries/carried_soil.hpp"
 #include "solver/modules.hpp"
 #include "solver/particles/ordered_sum.hpp"
 #include "solver/schemes/hourglass.hpp"
 
 namespace furrow {
+namespace {
+
+/// tan(phi) of soil in plane strain without dilation, sin(phi) = 3 alpha, and 0 of any other material.
+double internal_friction(const AnyMaterial& material) {
+  const DruckerPrager* soil = std::get_if<DruckerPrager>(&material);
+  const double sine = soil == nullptr ? 0.0 : std::min(0.99, 3.0 * soil->cone.alpha);
+  return sine / std::sqrt(1.0 - sine * sine);
+}
+
+}  // namespace
 
 template <int Dim>
 void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
@@ -14,6 +25,7 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
   const std::size_t n = p.size();
   const Vector<Dim> gravity = loads.gravity_at(time);
   const double damping = loads.damping_at(time);
+  friction_power_ = 0.0;
   if (in_reference_frame()) {
     accelerate_in_reference(velocity);
   } else {
@@ -23,11 +35,20 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
     momentum<Dim>(stencil(), p, velocity, correction(), terms, workspace_, p.acceleration, power_);
     if (scheme.hourglass > 0.0) hourglass_control<Dim>(stencil(), p, velocity, scheme.hourglass, p.acceleration, power_);
     account_layers(velocity);
+    if (const double friction = internal_friction(material); scheme.viscosity && friction > 0.0 && !layers.empty()) {
+      const LayerSurroundings<Dim> around = layer_surroundings();
+      for (std::size_t l = 0; l < layers.size(); ++l) {
+        if (layers[l].slip != Slip::none || layers[l].ids.empty()) continue;
+        const auto carried = carried_friction<Dim>(around, layers[l], own_velocity_[l].front(), *scheme.viscosity, friction, p,
+                                                   velocity, p.acceleration);
+        layer_forces_[l] += carried.force;
+        friction_power_ += carried.power;
+      }
+    }
     return_velocities(velocity);
   }
 
   wall_forces_.clear();
-  friction_power_ = 0.0;
   for (const RigidWall<Dim>& wall : walls) {
     has_run(Module::wall);
     const auto push = wall.push(p, spacing, velocity, p.acceleration, [this](std::size_t i) { return !is_in_layer(i); });

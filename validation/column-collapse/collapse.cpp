@@ -25,7 +25,7 @@ SoilColumn read_soil_column(const Parameters& input) {
            .rest_speed = input.quantity_or("rest_speed", dimension::velocity, 0.05, range::positive),
            .rest_held = 0.0,
            .scheme = read_scheme(input)};
-  c.rest_held = input.quantity_or("rest_held", dimension::time, std::sqrt(c.height / c.gravity), range::positive);
+  c.rest_held = input.quantity_or("rest_held", dimension::time, 3.0 * std::sqrt(c.height / c.gravity), range::positive);
   c.resting = read_resting_ratio(input, soil.law, soil.law.reference_density * c.gravity * c.height);
   if (c.left < 0.0) input.fail("left", fmt::format("found {:g} m, expected 0 or more: the soil would overlap the wall at x = 0", c.left));
   if (c.bottom < 0.0) input.fail("bottom", fmt::format("found {:g} m, expected 0 or more: the soil would overlap the floor at y = 0", c.bottom));
@@ -178,7 +178,8 @@ Collapsed collapse(Run& run, const SoilColumn& c, double window) {
   end.time_of_greatest_speed = t[fastest];
 
   const std::vector<double>&x_c = dynamic.column("centre_x"), &y_c = dynamic.column("centre_y");
-  const auto late = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end() - 1, t.back() - 0.5 * c.rest_held) - t.begin());
+  const double watched = 2.0 / 3.0 * c.rest_held;   // before that the last hundredth of the mass comes to rest
+  const auto late = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end() - 1, t.back() - watched) - t.begin());
   end.late_motion = std::hypot(x_c.back() - x_c[late], y_c.back() - y_c[late]) / c.height;
 
   soil_figure(run, body, "displacement", "Displacement", {"|u|", "m"}, [&body](std::size_t i) {

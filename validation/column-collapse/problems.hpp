@@ -40,7 +40,7 @@ struct Collapsed {
   double greatest_speed, time_of_greatest_speed;   ///< of all but a thousandth of the mass
   double crest_settlement;          ///< m, of the upper particle at the face
   double front;                     ///< m, farthest particle with at least four neighbours of soil within two spacings
-  double late_motion;               ///< way of the centre of mass over the last half of `rest_held`, over the initial height
+  double late_motion;               ///< way of the centre of mass over the last two thirds of `rest_held`, over the initial height
   double volume_change;             ///< of the sum of m/rho, relative
   double energy_imbalance;
 };

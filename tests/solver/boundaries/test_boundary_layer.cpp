@@ -117,6 +117,25 @@ TEST_CASE("a linear profile of velocity goes on behind a rough surface, and mirr
   }
 }
 
+TEST_CASE("soil that artificial viscosity carries over a rough floor is held back by its own friction, at any angle", "[boundary]") {
+  const double angle = GENERATE(0.0, 0.4, 2.5), sliding = GENERATE(-0.5, 0.0, 0.5);
+  const Slip slip = GENERATE(Slip::none, Slip::free);
+  Simulation<2> simulation = block_on_floor(angle, slip);
+  Body<2>& body = simulation.body;
+  body.scheme.viscosity = ArtificialViscosity{0.2, 0.0};
+  const Vector<2> along(std::cos(angle), std::sin(angle)), up(-std::sin(angle), std::cos(angle));
+  for (std::size_t i = 0; i < 200; ++i) body.particles.velocity[i] = sliding * along - 0.2 * up;
+  simulation.start();
+  // No stress yet: viscosity alone carries the block.
+  const Vector<2> on_floor = body.layer_forces()[0];
+  const double carried = -on_floor.dot(up);
+  CHECK(carried > 0.0);
+  const double direction = slip == Slip::free || sliding == 0.0 ? 0.0 : std::copysign(1.0, sliding);
+  CHECK(on_floor.dot(along) == Approx(direction * std::tan(0.5) * carried).margin(1e-9 * carried));
+  CHECK((soil_force(simulation) + on_floor).norm() < 1e-11 * on_floor.norm());
+  CHECK(body.friction_power() == Approx(std::abs(direction * sliding) * std::tan(0.5) * carried).margin(1e-9 * carried));
+}
+
 TEST_CASE("energy that a rough floor takes and gives is in the balance", "[boundary]") {
   Simulation<2> simulation = block_on_floor(0.0, Slip::none);
   Body<2>& body = simulation.body;
