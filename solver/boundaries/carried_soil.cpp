@@ -16,7 +16,8 @@ double viscous_term(const ArtificialViscosity& model, double v_dot_x, double r, 
 template <int Dim>
 Carried<Dim> carried_friction(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer,
                               const Vector<Dim>& wall_velocity, const ArtificialViscosity& viscosity, double friction,
-                              const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, std::span<Vector<Dim>> acceleration) {
+                              const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
+                              std::span<Vector<Dim>> acceleration) {
   constexpr double least_sliding = 1e-3;   // m/s
   return std::visit(
       [&](auto kernel) {

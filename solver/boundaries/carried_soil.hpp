@@ -25,6 +25,7 @@ struct Carried {
 template <int Dim>
 Carried<Dim> carried_friction(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer,
                               const Vector<Dim>& wall_velocity, const ArtificialViscosity& viscosity, double friction,
-                              const Particles<Dim>& p, std::span<const Vector<Dim>> velocity, std::span<Vector<Dim>> acceleration);
+                              const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
+                              std::span<Vector<Dim>> acceleration);
 
 }  // namespace furrow

@@ -117,7 +117,7 @@ TEST_CASE("a linear profile of velocity goes on behind a rough surface, and mirr
   }
 }
 
-TEST_CASE("soil that artificial viscosity carries over a rough floor is held back by its own friction, at any angle", "[boundary]") {
+TEST_CASE("soil that artificial viscosity carries over a rough floor pays friction for it, at any angle", "[boundary]") {
   const double angle = GENERATE(0.0, 0.4, 2.5), sliding = GENERATE(-0.5, 0.0, 0.5);
   const Slip slip = GENERATE(Slip::none, Slip::free);
   Simulation<2> simulation = block_on_floor(angle, slip);
