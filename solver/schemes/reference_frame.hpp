@@ -44,8 +44,8 @@ double reference_speed(const Matrix<Dim>& F, double c) {
 ///   P' = rho_0 c^2 (F' : F^-T) F^-T,  u'' = Div P' / rho_0,
 /// by ten steps of the power method from displacements that are noise. An explicit step is stable up to 2/omega (Courant,
 /// Friedrichs & Lewy 1928). What the sums see of a wave depends on the pattern of particles, on free faces and on how far
-/// particles that are squeezed alike reach; none of it is guessed. Particles
-/// that are `left_out` (not 0) are taken to answer no strain.
+/// particles that are squeezed alike reach; none of it is guessed. Particles that are `left_out` (not 0) are taken to answer no
+/// strain.
 template <int Dim>
 double largest_frequency(const Stencil<Dim>& reference, const PairWeights& weights, const Particles<Dim>& particles,
                          std::span<const Matrix<Dim>> correction, double reference_density,
