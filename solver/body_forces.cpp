@@ -39,7 +39,8 @@ void Body<Dim>::accelerate(double time, std::span<Vector<Dim>> velocity) {
       const LayerSurroundings<Dim> around = layer_surroundings();
       for (std::size_t l = 0; l < layers.size(); ++l) {
         if (layers[l].slip != Slip::none || layers[l].ids.empty()) continue;
-        const auto carried = carried_friction<Dim>(around, layers[l], own_velocity_[l].front(), *scheme.viscosity, friction, p,
+        const auto carried = carried_friction<Dim>(around, layers[l], own_velocity_[l].front(),
+                                                   {scheme.viscosity->alpha, scheme.viscosity->beta}, friction, p,
                                                    velocity, p.acceleration);
         layer_forces_[l] += carried.force;
         friction_power_ += carried.power;

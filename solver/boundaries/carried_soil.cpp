@@ -6,7 +6,7 @@ namespace furrow {
 namespace {
 
 /// Pi of one approaching pair as in artificial_viscosity(), m^5/(kg s^2); c and rho are its means.
-double viscous_term(const ArtificialViscosity& model, double v_dot_x, double r, double h, double c, double rho) {
+double viscous_term(const Viscous& model, double v_dot_x, double r, double h, double c, double rho) {
   const double mu = h * std::min(0.0, v_dot_x) / (r * r + 0.01 * h * h);
   return (model.beta * mu - model.alpha * c) * mu / rho;
 }
@@ -15,9 +15,8 @@ double viscous_term(const ArtificialViscosity& model, double v_dot_x, double r, 
 
 template <int Dim>
 Carried<Dim> carried_friction(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer,
-                              const Vector<Dim>& wall_velocity, const ArtificialViscosity& viscosity, double friction,
-                              const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
-                              std::span<Vector<Dim>> acceleration) {
+                              const Vector<Dim>& wall_velocity, const Viscous& viscosity, double friction, const Particles<Dim>& p,
+                              std::span<const Vector<Dim>> velocity, std::span<Vector<Dim>> acceleration) {
   constexpr double least_sliding = 1e-3;   // m/s
   return std::visit(
       [&](auto kernel) {
@@ -52,7 +51,7 @@ Carried<Dim> carried_friction(const LayerSurroundings<Dim>& around, const Bounda
 
 #define FURROW_INSTANTIATE(Dim) \
   template Carried<Dim> carried_friction<Dim>(const LayerSurroundings<Dim>&, const BoundaryLayer<Dim>&, const Vector<Dim>&, \
-                                              const ArtificialViscosity&, double, const Particles<Dim>&, \
+                                              const Viscous&, double, const Particles<Dim>&, \
                                               std::span<const Vector<Dim>>, std::span<Vector<Dim>>);
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)

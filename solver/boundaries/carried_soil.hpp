@@ -3,9 +3,13 @@
 
 #include "solver/boundaries/boundary_layer.hpp"
 #include "solver/particles/fields.hpp"
-#include "solver/schemes/viscosity.hpp"
 
 namespace furrow {
+
+/// Strengths of the soil's artificial viscosity (viscosity.hpp).
+struct Viscous {
+  double alpha, beta;
+};
 
 /// What carrying soil does to a layer.
 template <int Dim>
@@ -24,8 +28,7 @@ struct Carried {
 /// over pairs see, lent ones included.
 template <int Dim>
 Carried<Dim> carried_friction(const LayerSurroundings<Dim>& around, const BoundaryLayer<Dim>& layer,
-                              const Vector<Dim>& wall_velocity, const ArtificialViscosity& viscosity, double friction,
-                              const Particles<Dim>& p, std::span<const Vector<Dim>> velocity,
-                              std::span<Vector<Dim>> acceleration);
+                              const Vector<Dim>& wall_velocity, const Viscous& viscosity, double friction, const Particles<Dim>& p,
+                              std::span<const Vector<Dim>> velocity, std::span<Vector<Dim>> acceleration);
 
 }  // namespace furrow
