@@ -270,7 +270,8 @@ CorrectionView<Dim> Body<Dim>::view_of_correction() const {
 template <int Dim>
 void Body<Dim>::plain_velocity_gradient(double dt) {
   const Particles<Dim>& p = particles;
-  if (!scheme.dual_gradient) return furrow::velocity_gradient<Dim>(stencil(), volume_, p.velocity, {}, velocity_gradient_);
+  if (!scheme.dual_gradient)
+    return furrow::velocity_gradient<Dim>(stencil(), volume_, p.velocity, linear(), velocity_gradient_);
   // L_i = 1/rho_i sum_j m_j (v_j - v_i) (x) grad_i W_ij, whose power with the stress is that of Eqs 8 and 10 whatever the densities.
   furrow::velocity_gradient<Dim>(stencil(), p.mass, p.velocity, {}, velocity_gradient_);
   for_all(p.size(), [&](std::size_t i) { velocity_gradient_[i] /= p.density[i] + 0.5 * dt * p.density_rate[i]; });
@@ -292,9 +293,9 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
   }
   // Seen from the middle of the step, where positions are already: a volume from its beginning would cost an order.
   if (!in_reference_frame()) find_volumes(0.5 * dt);
-  if (scheme.correction == Correction::linear) {
+  if (scheme.correction == Correction::linear && !in_reference_frame()) {
     corrected_velocity_gradient<Dim>(s, volume_, p.velocity, scheme.least_span, linear_, velocity_gradient_);
-  } else if (scheme.correction == Correction::none) {
+  } else if (scheme.correction != Correction::quadratic) {
     plain_velocity_gradient(dt);
   } else if constexpr (Dim == 2) {
     if (!in_reference_frame()) make_correction();

@@ -148,7 +148,7 @@ class Body {
   /// Volumes with densities `ahead` of what they are (s).
   void find_volumes(double ahead);
   void make_correction();
-  /// Without correction, in the middle of a step of dt.
+  /// With the correction that there is, none or linear, in the middle of a step of dt.
   void plain_velocity_gradient(double dt);
   CorrectionView<Dim> view_of_correction() const;
   bool in_reference_frame() const { return scheme.frame == Frame::reference; }
