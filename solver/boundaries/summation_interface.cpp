@@ -45,9 +45,8 @@ bool SummationInterface::stale(const Particles<2>& soft, const Particles<2>& sti
 void SummationInterface::find_pairs(const Particles<2>& soft, const Particles<2>& stiff,
                                     std::span<const std::uint8_t> takes_part) {
   has_run(Module::summation_interface);
-  index_by_id(soft, soft_index_);
-  index_by_id(stiff, stiff_index_);
   if (!stale(soft, stiff)) return;
+  index_by_id(soft, soft_index_);
   positions_by_id(soft, soft_at_build_);
   positions_by_id(stiff, stiff_at_build_);
   candidates_.clear();
@@ -65,7 +64,10 @@ void SummationInterface::find_pairs(const Particles<2>& soft, const Particles<2>
 }
 
 template <class Visit>
-void SummationInterface::for_pairs(const Particles<2>& soft, const Particles<2>& stiff, Visit&& visit) const {
+void SummationInterface::for_pairs(const Particles<2>& soft, const Particles<2>& stiff, Visit&& visit) {
+  // Asked anew by each sum: a body may have sorted its particles since its pairs were found, even within the same step.
+  index_by_id(soft, soft_index_);
+  index_by_id(stiff, stiff_index_);
   const double h = smoothing_length, farthest = reach();
   std::visit(
       [&](auto k) {
@@ -82,13 +84,13 @@ void SummationInterface::for_pairs(const Particles<2>& soft, const Particles<2>&
       kernel);
 }
 
-void SummationInterface::strain_soft(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> L) const {
+void SummationInterface::strain_soft(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> L) {
   for_pairs(soft, stiff, [&](std::size_t i, std::size_t j, const Vector<2>&, double, const Vector<2>& grad) {
     L[i] += stiff.volume(j) * (stiff.velocity[j] - soft.velocity[i]) * grad.transpose();
   });
 }
 
-void SummationInterface::strain_stiff(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> L) const {
+void SummationInterface::strain_stiff(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> L) {
   for_pairs(soft, stiff, [&](std::size_t i, std::size_t j, const Vector<2>&, double, const Vector<2>& grad) {
     L[j] -= soft.volume(i) * (soft.velocity[i] - stiff.velocity[j]) * grad.transpose();   // grad_j W = -grad_i W
   });
@@ -97,7 +99,7 @@ void SummationInterface::strain_stiff(const Particles<2>& soft, const Particles<
 SummationInterface::Pull SummationInterface::pull(const Particles<2>& soft, const Particles<2>& stiff,
                                                   std::span<const Vector<2>> soft_velocity,
                                                   std::span<Vector<2>> soft_acceleration,
-                                                  std::span<Vector<2>> stiff_force) const {
+                                                  std::span<Vector<2>> stiff_force) {
   std::fill(stiff_force.begin(), stiff_force.end(), Vector<2>::Zero());
   Pull sum;
   const double d_0 = repulsion ? repulsion->cut_off * repulsion_spacing : 0.0;

@@ -26,12 +26,13 @@ class SummationInterface {
   std::optional<LennardJones> repulsion;
   double repulsion_spacing = 0.0;
 
-  /// Pairs near enough now, of the soft particles that take part (by index).
+  /// Pairs near enough now, of the soft particles that take part (by index). They are kept by id: either body may sort its particles
+  /// before the sums.
   void find_pairs(const Particles<2>& soft, const Particles<2>& stiff, std::span<const std::uint8_t> takes_part);
 
   /// L_i += sum_j m_j/rho_j (v_j - v_i) (x) grad_i W_ij over particles j of the other body (Eqs 12, 13 across the interface).
-  void strain_soft(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> velocity_gradient) const;
-  void strain_stiff(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> velocity_gradient) const;
+  void strain_soft(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> velocity_gradient);
+  void strain_stiff(const Particles<2>& soft, const Particles<2>& stiff, std::span<Matrix<2>> velocity_gradient);
 
   struct Pull {
     Vector<2> force = Vector<2>::Zero();   ///< on the stiff body, N
@@ -41,7 +42,7 @@ class SummationInterface {
   /// a_i += m_j [sigma_i/rho_i^2 + sigma_j/rho_j^2] grad_i W_ij (Eq. 10 across the interface) and the repulsion; the same forces,
   /// opposite, on the stiff particles, by id, N.
   Pull pull(const Particles<2>& soft, const Particles<2>& stiff, std::span<const Vector<2>> soft_velocity,
-            std::span<Vector<2>> soft_acceleration, std::span<Vector<2>> stiff_force) const;
+            std::span<Vector<2>> soft_acceleration, std::span<Vector<2>> stiff_force);
 
   std::size_t candidates() const { return candidates_.size(); }
 
@@ -50,7 +51,7 @@ class SummationInterface {
   bool stale(const Particles<2>& soft, const Particles<2>& stiff) const;
   /// visit(i, j, x_ij, r, grad_i W_ij) of each pair within reach.
   template <class Visit>
-  void for_pairs(const Particles<2>& soft, const Particles<2>& stiff, Visit&& visit) const;
+  void for_pairs(const Particles<2>& soft, const Particles<2>& stiff, Visit&& visit);
 
   std::vector<std::array<std::int32_t, 2>> candidates_;          ///< ids: soft, stiff
   std::vector<Vector<2>> soft_at_build_, stiff_at_build_;        ///< by id

@@ -138,6 +138,37 @@ TEST_CASE("sums over two bodies know no order of particles, and only who takes p
   CHECK(forces(soft, everyone, fourth) == f);
 }
 
+TEST_CASE("sums over two bodies stay the same when bodies sort their particles after pairs were found", "[summation]") {
+  Particles<2> soft = block(-0.06, 1500.0, 1), stiff = block(0.0, 2800.0, 2);
+  SummationInterface s = sums(true);
+  s.find_pairs(soft, stiff, everyone);
+  struct ById {
+    std::vector<Vector<2>> on_soft, on_stiff;
+    std::vector<Matrix<2>> strain;
+  };
+  const auto all = [&] {
+    std::vector<Vector<2>> a(36, Vector<2>::Zero()), f(36);
+    std::vector<Matrix<2>> L(36, Matrix<2>::Zero());
+    s.strain_stiff(soft, stiff, L);
+    s.pull(soft, stiff, soft.velocity, a, f);
+    ById sorted{std::vector<Vector<2>>(36), f, std::vector<Matrix<2>>(36)};
+    for (std::size_t i = 0; i < 36; ++i) {
+      sorted.on_soft[static_cast<std::size_t>(soft.id[i])] = a[i];
+      sorted.strain[static_cast<std::size_t>(stiff.id[i])] = L[i];
+    }
+    return sorted;
+  };
+  const ById before = all();
+  std::vector<std::int32_t> order(36);
+  std::iota(order.rbegin(), order.rend(), 0);
+  permute(soft, order);
+  permute(stiff, order);
+  const ById after = all();
+  CHECK(after.on_soft == before.on_soft);
+  CHECK(after.on_stiff == before.on_stiff);
+  CHECK(after.strain == before.strain);
+}
+
 TEST_CASE("sums over two bodies want one step for both and present positions", "[summation]") {
   const auto blocks = [](Frame frame, bool single_rate) {
     auto coupled = std::make_unique<CoupledSimulation>();
