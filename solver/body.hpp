@@ -76,29 +76,35 @@ class Body {
   /// squeezed particle. Changes nothing that a later step sees.
   double largest_wave_number();
 
-  // Sub-cycling in the reference frame (body_sub_cycle.cpp): squeezed particles, the fast part, take several short steps in one of
-  // the body. The pulls of all others, dampers, walls and gravity act at its ends: impulses between which the fast part moves by its
-  // own pulls (Tuckerman, Berne & Martyna 1992). Nothing may be prescribed or held, and no other body may be near.
+  // Sub-cycling in the reference frame (body_sub_cycle.cpp): squeezed particles, the fast parts, take several short steps in one of
+  // the body, the more squeezed the more. The pulls of all others, dampers, walls and gravity act at the ends of their own steps:
+  // impulses between which a fast part moves by its own pulls (Tuckerman, Berne & Martyna 1992). Nothing may be prescribed or held,
+  // and no other body may be near.
 
-  /// Chooses the fast part anew; `slow_ratio` as in worth_short_steps. Returns kappa, as largest_wave_number() does, of the rest alone
-  /// and with its most squeezed particle; 0 where there is no fast part.
-  double choose_fast_part(double slow_ratio);
-  bool has_fast_part() const { return !fast_.empty(); }
-  std::span<const std::uint8_t> squeezed() const { return fast_.is_squeezed; }
-  const FastPart<Dim>& fast_part() const { return fast_; }
-  /// Takes the pulls of the fast part out of the accelerations, and puts those that there are now back in. In between accelerate()
+  /// Chooses the fast parts anew; `slow_ratio` as in worth_short_steps.
+  void choose_fast_parts(double slow_ratio);
+  /// The slowest first; none where short steps are not worth it.
+  const std::vector<FastPart<Dim>>& fast_parts() const { return fast_; }
+  /// The rung of each particle, 0 of those in no fast part; empty where there is none.
+  std::span<const std::uint8_t> rungs() const { return rung_; }
+  /// Takes the pulls of the fast parts out of the accelerations, and puts those that there are now back in. In between accelerate()
   /// and power() are of all else.
   void part();
   void join();
-  /// What drift and respond() are to a whole body, for a step of dt in `sub_steps` of the fast part; velocities of the fast part come
-  /// out with its pulls in them. Returns the largest -tr L of the slow part, 1/s.
-  double respond_in_sub_steps(double dt, int sub_steps);
-  /// Viscous work on the fast part in the last of these, J; in the particles' internal energy already where energy is on.
+  /// What drift and respond() are to a whole body, for a step of dt. Each fast part takes sub_steps[k] steps in one of the part
+  /// before; velocities come out with the pulls of the fast parts in them. Returns the largest -tr L of the slow part, 1/s.
+  double respond_in_sub_steps(double dt, std::span<const int> sub_steps);
+  /// Viscous work on the fast parts in the last of these, J; in the particles' internal energy already where energy is on.
   double fast_viscous_work() const { return fast_viscous_work_; }
   double fast_deposit() const { return fast_deposit_; }   ///< what the particles' internal energy got of it
-  double fast_viscous_power() const { return fast_viscous_power_; }   ///< W, as of its last sub-step
-  /// The fast part of a run that goes on: which particles are squeezed, their pulls on the fast part, and its viscous power.
-  void restore_fast_part(std::vector<std::uint8_t> squeezed, std::vector<Vector<Dim>> pulls, double viscous_power);
+  /// What is to be kept of the fast parts for a run that goes on.
+  struct FastMemory {
+    std::vector<std::uint8_t> rung;
+    std::vector<double> slower_wave_number, viscous_power;   ///< of each part
+    std::vector<Vector<Dim>> acceleration;                   ///< of all parts, one after the other
+  };
+  FastMemory fast_memory() const;
+  void remember(const FastMemory& memory);
 
   /// Sets the velocity of prescribed particles and of boundary layers.
   void prescribe(double time, std::span<Vector<Dim>> velocity) const;
@@ -166,9 +172,13 @@ class Body {
   /// A = P B^T of reference_sums.hpp, with the pressure of bulk viscosity, which it notes down.
   Matrix<Dim> pull(std::size_t i);
   double viscous_power(std::size_t i) const { return -viscous_pressure_[i] * velocity_gradient_[i].trace() / particles.density[i]; }
-  void strain_fast_part(double dt);
-  void pull_fast_part();
-  bool is_squeezed(std::size_t i) const { return !fast_.empty() && fast_.is_squeezed[i] != 0; }
+  /// The fast parts of the rungs that there are.
+  void make_fast_parts();
+  /// Moves fast part k through a step of dt of the part before, in sub_steps[k] steps, and those that are faster with it.
+  void advance_fast_part(std::size_t k, double dt, std::span<const int> sub_steps);
+  void strain_fast_part(const FastPart<Dim>& part, double dt);
+  void pull_fast_part(FastPart<Dim>& part);
+  bool is_squeezed(std::size_t i) const { return !rung_.empty() && rung_[i] != 0; }
   /// Corrections, and what is kept of pairs, for the neighbours that there are now.
   void look_at_pairs();
   /// In the reference frame: cuts pairs where particles have failed since the last time.
@@ -181,9 +191,10 @@ class Body {
   std::vector<Matrix<Dim>> gradient_rate_;   ///< in the reference frame: dv/dX, F'
   PairWeights weights_;
   PairGradients pair_gradients_;
-  FastPart<Dim> fast_;
+  std::vector<std::uint8_t> rung_;
+  std::vector<FastPart<Dim>> fast_;
   bool parted_ = false;
-  double fast_viscous_power_ = 0.0, fast_viscous_work_ = 0.0, fast_deposit_ = 0.0;
+  double fast_viscous_work_ = 0.0, fast_deposit_ = 0.0;
   std::vector<Vector<Dim>> mean_velocity_;   ///< of a step with sub-steps
   Particles<Dim> undeformed_;                ///< in the reference frame: what the momentum sum sees, stress the first Piola-Kirchhoff
   std::vector<QuadraticGradient<Dim>> quadratic_;

@@ -29,7 +29,8 @@ void Body<Dim>::build_reference() {
   gradient_rate_.assign(p.position.size(), Matrix<Dim>::Zero());
   cut_cracks(neighbours_, p, spacing);   // those of a run that goes on
   look_at_pairs();
-  fast_.choose(stencil(), weights_, linear(), {});
+  rung_.clear();
+  make_fast_parts();
 }
 
 template <int Dim>
@@ -52,9 +53,7 @@ void Body<Dim>::open_cracks() {
   if (!opened) return;
   cut_cracks(neighbours_, p, spacing);
   look_at_pairs();
-  if (fast_.empty()) return;
-  fast_.choose(stencil(), weights_, linear(), fast_.is_squeezed);
-  pull_fast_part();
+  make_fast_parts();
 }
 
 template <int Dim>
@@ -75,10 +74,10 @@ double Body<Dim>::strain(const Law& law, std::size_t i, const Matrix<Dim>& rate,
 }
 
 template <int Dim>
-void Body<Dim>::strain_fast_part(double dt) {
+void Body<Dim>::strain_fast_part(const FastPart<Dim>& part, double dt) {
   std::visit(
       [&](const auto& law) {
-        for_all(fast_.squeezed, [&](std::size_t l) { strain(law, static_cast<std::size_t>(fast_.particle[l]), fast_.rate[l], dt); });
+        for_all(part.own, [&](std::size_t l) { strain(law, static_cast<std::size_t>(part.particle[l]), part.rate[l], dt); });
       },
       material);
 }
@@ -188,7 +187,7 @@ double Body<Dim>::largest_wave_number() {
   template double Body<Dim>::largest_wave_number();                                   \
   template double Body<Dim>::respond_in_reference(double);                            \
   template Matrix<Dim> Body<Dim>::pull(std::size_t);                                  \
-  template void Body<Dim>::strain_fast_part(double);                                \
+  template void Body<Dim>::strain_fast_part(const FastPart<Dim>&, double);            \
   template void Body<Dim>::look_at_pairs();
 FURROW_INSTANTIATE(2)
 FURROW_INSTANTIATE(3)

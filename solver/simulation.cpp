@@ -32,7 +32,7 @@ void Simulation<Dim>::step(double end) {
   Particles<Dim>& p = body.particles;
   const std::size_t n = p.size();
   if (control.stability > 0.0 && steps_ % frequency_every == 0) wave_number_ = body.largest_wave_number();
-  StepLength length = step_length(body, compression_, control, wave_number_, slow_wave_number_);
+  StepLength length = step_length(body, compression_, control, wave_number_);
   const double grown = steps_ == 0 ? control.first * length.dt : control.growth * dt_;
   if (!control.fixed && (steps_ == 0 || control.growth > 0.0) && grown < length.dt) {
     length.dt = grown;
@@ -43,7 +43,7 @@ void Simulation<Dim>::step(double end) {
   limiter_ = last ? StepLimiter::end_of_run : length.limiter;
 
   // Kick to the middle of the step.
-  const int sub_steps = body.has_fast_part() ? static_cast<int>(std::ceil(dt / length.part)) : 1;
+  const SubSteps sub_steps = sub_steps_of(dt, length);
   body.part();
   for_all(n, [&](std::size_t i) { p.velocity[i] += 0.5 * dt * p.acceleration[i]; });
   body.prescribe(time_ + 0.5 * dt, p.velocity);
@@ -65,13 +65,18 @@ void Simulation<Dim>::step(double end) {
   time_ = last ? end : time_ + dt;
   dt_ = dt;
   ++steps_;
-  sub_steps_ += sub_steps;
-  particle_steps_ += static_cast<std::int64_t>(n + body.fast_part().squeezed * static_cast<std::size_t>(sub_steps - 1));
+  std::int64_t shortest = 1;
+  particle_steps_ += static_cast<std::int64_t>(n);
+  for (std::size_t k = 0; k < body.fast_parts().size(); ++k) {
+    shortest *= sub_steps[k];
+    particle_steps_ += static_cast<std::int64_t>(body.fast_parts()[k].own) * (shortest - 1);
+  }
+  sub_steps_ += shortest;
   if (first_dt_ == 0.0) first_dt_ = length.dt;
   account(dt);
   if (last || steps_ % stock_every == 0) take_stock();
   if (body.scheme.sub_cycling && control.stability > 0.0 && !control.fixed && steps_ % fast_part_every == 0) {
-    slow_wave_number_ = body.choose_fast_part(control.slow_stability / control.stability);
+    body.choose_fast_parts(control.slow_stability / control.stability);
     powers_ = powers();
   }
   check();
@@ -86,8 +91,19 @@ void Simulation<Dim>::run_until(double end, const std::function<void(const Simul
 }
 
 template <int Dim>
-void Simulation<Dim>::move(double dt, int sub_steps) {
-  if (body.has_fast_part()) {
+typename Simulation<Dim>::SubSteps Simulation<Dim>::sub_steps_of(double dt, const StepLength& length) const {
+  SubSteps steps{};
+  double outer = dt;
+  for (std::size_t k = 0; k < body.fast_parts().size(); ++k) {
+    steps[k] = static_cast<int>(std::ceil(outer / length.part[k]));
+    outer /= steps[k];
+  }
+  return steps;
+}
+
+template <int Dim>
+void Simulation<Dim>::move(double dt, const SubSteps& sub_steps) {
+  if (!body.fast_parts().empty()) {
     compression_ = body.respond_in_sub_steps(dt, sub_steps);
     return;
   }
@@ -137,11 +153,11 @@ void Simulation<Dim>::account(double dt) {
   energy_.layer += 0.5 * dt * (before.layer + powers_.layer);
   if (!body.loads.motions.empty())
     energy_.external += body.prescribed_kinetic_energy(time_) - body.prescribed_kinetic_energy(time_ - dt);
-  if (body.has_fast_part()) energy_.viscous += body.fast_viscous_work();
+  if (!body.fast_parts().empty()) energy_.viscous += body.fast_viscous_work();
   if (!body.scheme.energy) return;
   for_all(p.size(), [&](std::size_t i) { p.internal_energy[i] += dt * body.power()[i].viscous; });
   deposited_ += dt * powers_.viscous;
-  if (body.has_fast_part()) deposited_ += body.fast_deposit();
+  if (!body.fast_parts().empty()) deposited_ += body.fast_deposit();
 }
 
 template <int Dim>
@@ -229,7 +245,7 @@ void Simulation<Dim>::check() const {
 
 template <int Dim>
 typename Simulation<Dim>::Clock Simulation<Dim>::clock() const {
-  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, wave_number_, slow_wave_number_, deposited_,
+  return {time_, dt_, first_dt_, compression_, initial_energy_, energy_scale_, initial_internal_, wave_number_, deposited_,
           steps_, sub_steps_, particle_steps_, limiter_, energy_, powers_};
 }
 
@@ -243,7 +259,6 @@ void Simulation<Dim>::resume(const Clock& clock) {
   energy_scale_ = clock.energy_scale;
   initial_internal_ = clock.initial_internal;
   wave_number_ = clock.wave_number;
-  slow_wave_number_ = clock.slow_wave_number;
   deposited_ = clock.deposited;
   steps_ = clock.steps;
   sub_steps_ = clock.sub_steps;

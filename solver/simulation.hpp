@@ -51,9 +51,9 @@ class Simulation {
   static constexpr std::int64_t stock_every = 10;
   /// With `control.stability` the largest frequency is looked up anew so often; in between it follows what is squeezed most.
   static constexpr std::int64_t frequency_every = 100;
-  /// With `control.sub_cycling` the fast part is chosen anew so often.
+  /// With `scheme.sub_cycling` the fast parts are chosen anew so often.
   static constexpr std::int64_t fast_part_every = 50;
-  /// Sub-steps of the fast part so far, a step without any counted as one; and what they came to in steps of one particle.
+  /// Steps of the fastest part so far, those of the body where there is none; and what they came to in steps of one particle.
   std::int64_t sub_steps() const { return sub_steps_; }
   std::int64_t particle_steps() const { return particle_steps_; }
   void take_stock();
@@ -69,7 +69,6 @@ class Simulation {
     double compression = 0.0;        ///< largest -tr L, 1/s
     double initial_energy = 0.0, energy_scale = 0.0, initial_internal = 0.0;
     double wave_number = 0.0;        ///< kappa of step_length
-    double slow_wave_number = 0.0;
     double deposited = 0.0;          ///< viscous heat in the particles' internal energy, J
     std::int64_t steps = 0, sub_steps = 0, particle_steps = 0;
     StepLimiter limiter = StepLimiter::courant;
@@ -82,12 +81,14 @@ class Simulation {
 
  private:
   void drift(double dt);
-  void move(double dt, int sub_steps);
+  using SubSteps = std::array<int, most_fast_parts>;   ///< of each fast part in one of the part before
+  SubSteps sub_steps_of(double dt, const StepLength& length) const;
+  void move(double dt, const SubSteps& sub_steps);
   void account(double dt);
   void check() const;
   Powers powers() const;
 
-  double time_ = 0.0, dt_ = 0.0, first_dt_ = 0.0, compression_ = 0.0, wave_number_ = 0.0, slow_wave_number_ = 0.0;
+  double time_ = 0.0, dt_ = 0.0, first_dt_ = 0.0, compression_ = 0.0, wave_number_ = 0.0;
   double initial_energy_ = 0.0, energy_scale_ = 0.0, initial_internal_ = 0.0, deposited_ = 0.0, imbalance_ = 0.0;
   std::int64_t steps_ = 0, sub_steps_ = 0, particle_steps_ = 0;
   StepLimiter limiter_ = StepLimiter::courant;

@@ -16,7 +16,6 @@ void for_each_number(Clock& c, Visit&& visit) {
   visit("energy_scale", c.energy_scale);
   visit("initial_internal", c.initial_internal);
   visit("wave_number", c.wave_number);
-  visit("slow_wave_number", c.slow_wave_number);
   visit("deposited", c.deposited);
   visit("energy.kinetic", c.energy.kinetic);
   visit("energy.elastic", c.energy.elastic);
@@ -73,12 +72,13 @@ Checkpoint checkpoint_of(const Simulation<Dim>& simulation) {
   checkpoint.put_scalar("steps", clock.steps);
   checkpoint.put_scalar("sub_steps", clock.sub_steps);
   checkpoint.put_scalar("particle_steps", clock.particle_steps);
-  const FastPart<Dim>& fast = simulation.body.fast_part();
-  checkpoint.put_array("fast.squeezed", std::vector<std::int32_t>(fast.is_squeezed.begin(), fast.is_squeezed.end()));
+  const auto fast = simulation.body.fast_memory();
+  checkpoint.put_array("fast.rung", std::vector<std::int32_t>(fast.rung.begin(), fast.rung.end()));
+  checkpoint.put_array("fast.slower_wave_number", fast.slower_wave_number);
+  checkpoint.put_array("fast.viscous_power", fast.viscous_power);
   std::vector<double> pulls;
   for (const Vector<Dim>& a : fast.acceleration) pulls.insert(pulls.end(), a.data(), a.data() + Dim);
   checkpoint.put_array("fast.acceleration", std::move(pulls));
-  checkpoint.put_scalar("fast.viscous_power", simulation.body.fast_viscous_power());
   checkpoint.put_scalar("limiter", static_cast<std::int32_t>(clock.limiter));
   return checkpoint;
 }
@@ -119,12 +119,12 @@ void resume_from(const Checkpoint& checkpoint, Simulation<Dim>& simulation) {
   clock.particle_steps = checkpoint.scalar<std::int64_t>("particle_steps");
   clock.limiter = static_cast<StepLimiter>(checkpoint.scalar<std::int32_t>("limiter"));
   simulation.resume(clock);
-  const auto& squeezed = checkpoint.array<std::int32_t>("fast.squeezed");
+  const auto& rung = checkpoint.array<std::int32_t>("fast.rung");
   const auto& pulls = checkpoint.array<double>("fast.acceleration");
-  std::vector<Vector<Dim>> acceleration(pulls.size() / Dim);
-  for (std::size_t l = 0; l < acceleration.size(); ++l) std::copy_n(pulls.data() + l * Dim, Dim, acceleration[l].data());
-  simulation.body.restore_fast_part({squeezed.begin(), squeezed.end()}, std::move(acceleration),
-                                    checkpoint.scalar<double>("fast.viscous_power"));
+  typename Body<Dim>::FastMemory fast{{rung.begin(), rung.end()}, checkpoint.array<double>("fast.slower_wave_number"),
+                                      checkpoint.array<double>("fast.viscous_power"), std::vector<Vector<Dim>>(pulls.size() / Dim)};
+  for (std::size_t l = 0; l < fast.acceleration.size(); ++l) std::copy_n(pulls.data() + l * Dim, Dim, fast.acceleration[l].data());
+  simulation.body.remember(fast);
 }
 
 template Checkpoint checkpoint_of<2>(const Simulation<2>&);

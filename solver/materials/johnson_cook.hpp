@@ -107,6 +107,7 @@ struct JohnsonCook {
       const double by_rate = form.plastic_rate ? y.by_log_rate / x : 0.0;
       const double slope = -3.0 * G - intact * (y.by_strain + by_rate + y.by_temperature * b * (q_trial - 6.0 * G * x));
       const double next = x - g / slope;
+      if (std::abs(g) <= 1e-8 * q_trial && next > low && next < high) return next;   // convergence is quadratic: below 1e-13 there
       const bool crawls = high - low > 0.5 * width && k > 2;
       width = high - low;
       x = next > low && next < high && !crawls ? next : 0.5 * (low + high);

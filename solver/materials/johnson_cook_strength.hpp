@@ -64,8 +64,14 @@ struct JohnsonCookStrength {
   static constexpr double near = 0.02;
   /// (1 + r)^a for |r| < near and a from 0 to 3, to round-off: its binomial series; the first term left out is below 1e-17.
   static double power_near_one(double r, double a) {
+    if (std::abs(r) < 1e-5) return binomial_series<3>(r, a);
+    if (std::abs(r) < 1e-3) return binomial_series<5>(r, a);
+    return binomial_series<8>(r, a);
+  }
+  template <int Terms>
+  static double binomial_series(double r, double a) {
     double sum = 1.0;
-    for (int k = 8; k > 0; --k) sum = 1.0 + (a - (k - 1)) * (1.0 / k) * r * sum;
+    for (int k = Terms; k > 0; --k) sum = 1.0 + (a - (k - 1)) * (1.0 / k) * r * sum;
     return sum;
   }
 };

@@ -1,4 +1,4 @@
-// Sums that keep their pairs are the general ones; a fast part changes neither momentum nor energy, and little else.
+// Sums that keep their pairs are the general ones; fast parts change neither momentum nor energy, and little else.
 #include <omp.h>
 
 #include "solver/io/simulation_checkpoint.hpp"
@@ -11,7 +11,8 @@ using namespace furrow;
 
 namespace {
 
-/// A block of rubber that swings, its first two columns squeezed to a tenth; between two planes of symmetry where `mirrored`.
+/// A block of rubber that swings, its first column squeezed to three hundredths, the next two to three tenths; between two planes of
+/// symmetry where `mirrored`. Nothing damps it: short steps are chosen that meet no resonance with it.
 Simulation<2> squeezed_block(bool sub_cycling, bool mirrored = false) {
   Simulation<2> simulation;
   Body<2>& body = simulation.body;
@@ -24,6 +25,7 @@ Simulation<2> squeezed_block(bool sub_cycling, bool mirrored = false) {
   body.scheme.hourglass_damping = 0.1;
   body.scheme.sub_cycling = sub_cycling;
   simulation.control.stability = 0.85;
+  simulation.control.slow_stability = 0.35;
   simulation.control.force = 1e6;
   std::vector<Vector<2>> centres;
   for (int i = 0; i < 20; ++i)
@@ -33,7 +35,7 @@ Simulation<2> squeezed_block(bool sub_cycling, bool mirrored = false) {
   Particles<2>& p = body.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Vector<2> X = p.reference_position[i];
-    if (X[0] < 0.02) p.deformation_gradient[i] = Vector<2>(0.1, 1.0).asDiagonal();
+    if (X[0] < 0.03) p.deformation_gradient[i] = Vector<2>(X[0] < 0.01 ? 0.03 : 0.3, 1.0).asDiagonal();
     p.velocity[i] = Vector<2>(0.05 * std::sin(12.0 * X[0] + 3.0 * X[1]), 0.05 * std::cos(9.0 * X[1]));
   }
   return simulation;
@@ -153,8 +155,9 @@ TEST_CASE("short steps of squeezed particles keep momentum and energy, and chang
   constexpr double end = 5e-3;
   together.run_until(end);
   apart.run_until(end);
-  REQUIRE(apart.body.has_fast_part());
-  CHECK(apart.body.fast_part().squeezed == 40);
+  REQUIRE(apart.body.fast_parts().size() == 2);
+  CHECK(apart.body.fast_parts()[0].own == 40);
+  CHECK(apart.body.fast_parts()[1].own == 20);
   CHECK(apart.steps() < together.steps() / 2);
   CHECK(apart.sub_steps() > 3 * apart.steps() / 2);
   CHECK((apart.momentum() - momentum).norm() < 1e-12 * scale);
@@ -171,7 +174,7 @@ TEST_CASE("short steps of squeezed particles keep momentum and energy, and chang
   CHECK(difference < 0.02 * moved);
 }
 
-TEST_CASE("a run with a fast part goes on from a checkpoint, and with any number of threads, bit for bit", "[reference]") {
+TEST_CASE("a run with fast parts goes on from a checkpoint, and with any number of threads, bit for bit", "[reference]") {
   const auto same = [](const Simulation<2>& a, const Simulation<2>& b) {
     bool equal = a.time() == b.time() && a.energy().total() == b.energy().total() && a.sub_steps() == b.sub_steps();
     for (std::int32_t id = 0; id < 400; ++id) {
@@ -190,7 +193,7 @@ TEST_CASE("a run with a fast part goes on from a checkpoint, and with any number
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
   const Simulation<2> whole = stepped(160);
-  REQUIRE(whole.body.has_fast_part());
+  REQUIRE(whole.body.fast_parts().size() == 2);
   omp_set_num_threads(3);
   CHECK(same(whole, stepped(160)));
   omp_set_num_threads(threads);
