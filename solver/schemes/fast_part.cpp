@@ -58,8 +58,9 @@ class Costs {
   }
 
  private:
-  // Of a particle of the rung, of one that moves with it, and of a step itself, in steps of a particle of rung 0.
-  static constexpr double of_own = 0.8, of_other = 0.15, of_step = 20.0;
+  // Of a particle of the rung and of one that moves with it, in steps of a particle of rung 0. A step itself costs so many of all
+  // particles: a body and its quarter behind two planes of symmetry choose alike.
+  static constexpr double of_own = 0.8, of_other = 0.15, of_step = 0.002;
   static constexpr double most_squeezed = 0.75;   ///< of the particles
   struct Limit {
     double speed;
@@ -73,7 +74,7 @@ class Costs {
     for (std::size_t k = 0; k < chain_.back(); ++k) {
       if (k > 0 && chain_.size() == most_fast_parts) break;
       const double rate = outer_rate * std::ceil(limits_[k].rate / outer_rate);
-      const double with = cost + rate * (of_own * (slow.faster - limits_[k].faster) + of_other * slow.touched + of_step);
+      const double with = cost + rate * (of_own * (slow.faster - limits_[k].faster) + of_other * slow.touched + of_step * particles_);
       if (with >= least_) continue;
       if (k > 0) {
         chain_.push_back(k);
