@@ -38,6 +38,7 @@ def parser():
     command.add_argument("--alone", action="store_true",
                          help="compile each of them alone: less work than one program with all where there are few")
     command.add_argument("--alive", action="store_true", help="only defects that reference/kills.json does not know as killed")
+    command.add_argument("--subtle", action="store_true", help="only defects that are said to be subtle")
     command.add_argument("--whole", action="store_true",
                          help="run all that the smoke tier has on subtle defects, to see that they are")
     command.add_argument("--resume", action="store_true", help="keep what was found for the same patch and commit")
@@ -57,6 +58,8 @@ def chosen(arguments):
     wanted = [d for d in found if matches(d.name, arguments.only)]
     if not wanted:
         raise GateError(f"none of {len(found)} defects has such a name; 'ls {arguments.patches}' shows them")
+    if arguments.subtle:
+        wanted = [d for d in wanted if d.subtle]
     if arguments.alive:
         known = record.read()
         wanted = [d for d in wanted if not d.right and not record.is_dead(known.get(d.name), d, arguments.tier)]
