@@ -20,7 +20,7 @@ class Kill:
     metric: str
     kind: str
     by: str               # truth, change or '' for a case that moved without being red, or not at all
-    moved: float | None   # relative to the clean value; None where there is no size
+    moved: float | None   # its largest move (size_of); None where nothing moved
     kinds: dict = field(default_factory=dict)   # how many metrics are of which kind
 
 
@@ -34,7 +34,7 @@ class Fate:
     hash: str = ""
     commit: str = ""
     looked: str = ""          # largest tier that was asked for
-    largest_smoke_move: float | None = None   # relative, of any metric of the smoke tier; None without one
+    largest_smoke_move: float | None = None   # of any metric of the smoke tier (size_of); None where none moved
     seen: list = field(default_factory=list)  # Kill of each case that ran
     seconds: float = 0.0      # wall time, building and running
 
@@ -49,7 +49,9 @@ def seen(clean, spoilt, tier, noise=None):
     rows = _rows(clean, spoilt, noise)
     worst = rules.order(rows)[0]
     by = "truth" if worst.kind in TRUTH else "change" if worst.kind in CHANGE else ""
-    return Kill(clean.id, tier, worst.metric, worst.kind, by, largest_move(rows), dict(collections.Counter(r.kind for r in rows)))
+    metrics = {m["name"]: m for m, _ in spoilt.metrics} if spoilt else {}
+    kinds = dict(collections.Counter(r.kind for r in rows))
+    return Kill(clean.id, tier, worst.metric, worst.kind, by, largest_move(rows, metrics), kinds)
 
 
 def _rows(clean, spoilt, noise):
@@ -68,12 +70,21 @@ def _rows(clean, spoilt, noise):
     return rows or [rules.Row(clean.id, "", rules.GREEN, "skipped", "nothing of the clean case is green")]
 
 
-def largest_move(rows):
-    """Largest relative move of a metric that is not round-off; infinite where a number is gone; None where nothing has a size."""
-    if any(r.kind == "error" for r in rows):
+def largest_move(rows, metrics):
+    """Size of the largest move that is not round-off; infinite where a number is gone; None where nothing moved. `metrics`: those
+    of the spoilt run by name."""
+    if any(r.kind in ("error", "lost") for r in rows):
         return math.inf
-    moves = [abs(r.relative) for r in rows if r.change == "moved" and r.relative is not None]
-    return max(moves, default=None)
+    return max((size_of(r, metrics[r.metric]) for r in rows if r.change == "moved" or r.kind == "fail"), default=None)
+
+
+def size_of(row, metric):
+    """A move as a share of the truth. Where that is zero a number without a unit is a share already, of an energy or a field; one
+    with a unit has its clean value alone to be held against."""
+    if row.value is None or row.accepted is None:
+        return math.inf
+    whole = abs(metric["reference"]["value"] or 0.0) or (1.0 if row.unit == "1" else abs(row.accepted))
+    return abs(row.value - row.accepted) / whole if whole else math.inf
 
 
 def fate(defect, kills, tiers, commit):

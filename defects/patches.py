@@ -4,7 +4,7 @@
   Right: why nothing that matters changes         (a change that is right and must not be red: no defect, but the gate's own test)
 Module: schemes/momentum, simulation            (required; as in results' `exercises`: cases that exercise one of them are run;
                                                    `harness/...`: all cases are)
-  Subtle: yes                                     (required: yes or no; yes: no smoke metric moves by more than 5 %)
+  Subtle: yes                                     (required: yes or no; yes: no smoke metric moves by more than 5 % of its truth)
   Source: the paper's Eq. 21                      (optional: who printed or made this wrong)
   Equivalent: why no number can change            (optional: the defect cannot be caught, and this is the proof)
 

@@ -21,7 +21,7 @@ class Entry:
     metric: str
     kind: str
     moved: float | str | None
-    smoke: float | str | None   # largest relative move of a smoke metric; None where none moved or not all of them ran
+    smoke: float | str | None   # largest move of a smoke metric (kills.size_of); None where none moved
     ran: int                  # cases that ran until then
     kinds: dict = field(default_factory=dict)   # of a right change: how many metrics were bitwise, within, ...
     hash: str = ""            # of the patch

@@ -1,5 +1,6 @@
 """Planted defects: their heads, that they apply, and who is said to have killed them."""
 
+import dataclasses
 import json
 import math
 import re
@@ -11,6 +12,7 @@ import pytest
 
 from defects import kills, patches
 from defects.command import main
+from gate import rules
 from gate.files import GateError
 from reports.kills import build
 from tests.gate.made import case, run, with_value
@@ -83,6 +85,19 @@ def judged(tmp_path, clean, spoilt, tier="smoke"):
 def test_who_kills(tmp_path, spoilt, kind, by):
     kill = judged(tmp_path, case(), spoilt)
     assert (kill.kind, kill.by) == (kind, by)
+
+
+def test_a_metric_that_fails_has_moved_as_well(tmp_path):
+    assert judged(tmp_path, case(), with_value(case(verdict="fail"), 2.5, verdict="fail")).moved == pytest.approx(1.5)
+
+
+def test_a_move_is_a_share_of_the_truth_or_of_one_where_that_is_zero():
+    row = rules.Row("kernel/one", "norm", rules.RED, "fail", "", value=2e-3, accepted=1e-3)
+    assert kills.size_of(row, {"reference": {"value": 0.0}}) == pytest.approx(1e-3)
+    assert kills.size_of(row, {"reference": {"value": 0.01}}) == pytest.approx(0.1)
+    row = dataclasses.replace(row, unit="N")
+    assert kills.size_of(row, {"reference": {"value": 0.0}}) == pytest.approx(1.0)
+    assert kills.size_of(dataclasses.replace(row, value=None), {"reference": {"value": 0.0}}) == math.inf
 
 
 def test_what_fails_on_the_clean_tree_proves_nothing(tmp_path):
