@@ -22,7 +22,9 @@ double wedge(const Cut& c, double beta) {
 
 }  // namespace
 
-CutForce earthmoving(const Cut& c) {
+CutForce earthmoving(const Cut& c, Rupture rupture) {
+  Cut chosen = c;   // the plane is looked for with this
+  if (rupture == Rupture::at_rest) chosen.speed = 0.0;
   const double highest = std::numbers::pi - c.rake - c.tool_friction - c.friction_angle;
   if (!(highest > 0.0)) throw std::invalid_argument("the blade is too steep and too rough for a plane of rupture");
   // P is infinite at both ends and has one least value between: coarse search, then golden section.
@@ -30,12 +32,12 @@ CutForce earthmoving(const Cut& c) {
   int best = 1;
   const auto at = [&](int k) { return highest * k / samples; };
   for (int k = 2; k < samples; ++k)
-    if (wedge(c, at(k)) < wedge(c, at(best))) best = k;
+    if (wedge(chosen, at(k)) < wedge(chosen, at(best))) best = k;
   double low = at(best - 1 > 0 ? best - 1 : 1), high = at(best + 1 < samples ? best + 1 : samples - 1);
   const double golden = std::numbers::phi - 1.0;
   while (high - low > 1e-12) {
     const double left = high - golden * (high - low), right = low + golden * (high - low);
-    (wedge(c, left) < wedge(c, right) ? high : low) = wedge(c, left) < wedge(c, right) ? right : left;
+    (wedge(chosen, left) < wedge(chosen, right) ? high : low) = wedge(chosen, left) < wedge(chosen, right) ? right : left;
   }
   const double beta = 0.5 * (low + high), P = wedge(c, beta), a = c.rake + c.tool_friction;
   return {P * std::sin(a) + c.adhesion * c.depth * cot(c.rake), -P * std::cos(a) + c.adhesion * c.depth, beta};

@@ -2,6 +2,7 @@
 // an earlier evaluation of the same wedge gave.
 #include "reference/exact/earthmoving.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "reference/exact/earth_pressure.hpp"
@@ -32,6 +33,22 @@ TEST_CASE("the paper's cut", "[earthmoving]") {
                                       .depth = 0.01, .speed = row.speed, .tool_friction = row.delta * degree, .gravity = 9.81});
   REQUIRE(force.draft == Approx(row.draft).margin(1.0));
   REQUIRE(-force.vertical == Approx(row.vertical).margin(1.0));
+}
+
+TEST_CASE("the plane of a blade at rest does not turn with speed", "[earthmoving]") {
+  Cut cut{.density = 1540.0, .cohesion = 5e3, .friction_angle = 28.0 * degree, .rake = 70.0 * degree, .depth = 0.01, .speed = 0.0};
+  const CutForce slow = earthmoving(cut, Rupture::at_rest);
+  REQUIRE(slow.draft == Approx(earthmoving(cut).draft).epsilon(1e-12));
+  cut.speed = 3.0;
+  const CutForce fast = earthmoving(cut, Rupture::at_rest), least = earthmoving(cut);
+  REQUIRE(fast.rupture == Approx(slow.rupture).epsilon(1e-12));
+  REQUIRE(least.rupture < 0.8 * slow.rupture);
+  REQUIRE(least.draft < fast.draft);
+  // Force of inertia on a plane at beta: rho v^2 d (tan beta + cot(beta + phi)) sin(alpha)/(D (1 + tan beta cot alpha)).
+  const double beta = slow.rupture, slip = 1.0 / std::tan(beta + cut.friction_angle), alpha = cut.rake;
+  const double D = std::cos(alpha) + std::sin(alpha) * slip;
+  const double inertia = 1540.0 * 9.0 * 0.01 * (std::tan(beta) + slip) * std::sin(alpha) / (D * (1.0 + std::tan(beta) / std::tan(alpha)));
+  REQUIRE(fast.draft - slow.draft == Approx(inertia).epsilon(1e-10));
 }
 
 TEST_CASE("no plane of rupture for a blade that is too steep and too rough", "[earthmoving]") {

@@ -107,17 +107,18 @@ void check_start(const Body<2>& soil, const Outline<2>& outline, const Blade& bl
   if (!on_the_way) throw std::invalid_argument("the blade does not touch the soil on its way");
 }
 
-exact::CutForce wedge_of(const Bed& bed, const Blade& blade) {
+exact::CutForce wedge_of(const Bed& bed, const Blade& blade, exact::Rupture rupture) {
   const exact::Cone cone{bed.soil.law.cone.alpha, bed.soil.law.cone.k, bed.soil.law.cone.beta};
-  return exact::earthmoving({.density = bed.soil.law.reference_density,
-                             .cohesion = exact::plane_strain_cohesion(cone),
-                             .friction_angle = exact::plane_strain_friction(cone),
-                             .rake = blade.rake,
-                             .depth = blade.depth,
-                             .speed = blade.speed,
-                             .tool_friction = std::atan(blade.friction),
-                             .adhesion = blade.adhesion,
-                             .gravity = bed.gravity});
+  const exact::Cut cut{.density = bed.soil.law.reference_density,
+                       .cohesion = exact::plane_strain_cohesion(cone),
+                       .friction_angle = exact::plane_strain_friction(cone),
+                       .rake = blade.rake,
+                       .depth = blade.depth,
+                       .speed = blade.speed,
+                       .tool_friction = std::atan(blade.friction),
+                       .adhesion = blade.adhesion,
+                       .gravity = bed.gravity};
+  return exact::earthmoving(cut, rupture);
 }
 
 void picture(Run& run, const Body<2>& soil, const std::vector<std::pair<std::string, std::vector<Vector<2>>>>& outlines,

@@ -53,7 +53,7 @@ std::vector<Vector<2>> outline_of(const Bed& bed, const Blade& blade);
 void check_start(const Body<2>& soil, const Outline<2>& outline, const Blade& blade, double range);
 
 /// The plane wedge of this cut, with the strength that the soil's cone has in plane strain.
-exact::CutForce wedge_of(const Bed& bed, const Blade& blade);
+exact::CutForce wedge_of(const Bed& bed, const Blade& blade, exact::Rupture rupture = exact::Rupture::least_force);
 
 /// Picture of the soil, coloured by a quantity, with the outline of the blade.
 void picture(Run& run, const Body<2>& soil, const std::vector<std::pair<std::string, std::vector<Vector<2>>>>& outlines,

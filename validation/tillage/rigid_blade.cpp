@@ -19,7 +19,7 @@ ContactLaw contact_alone(const Parameters& input, const Bed& bed, const Blade& b
 constexpr double uncertainty = 0.05;   ///< of independent means, relative
 
 void force_figure(Run& run, const Blade& blade, const CutResult& result, const std::optional<IndependentCut>& other,
-                  const exact::CutForce& wedge) {
+                  const exact::CutForce& wedge, const exact::CutForce& at_rest) {
   Figure& figure =
       run.figure({.name = "force", .title = "Draft over travel", .x = {"travel", "m"}, .y = {"force per width", "N/m"}});
   figure.add({.label = "computed, draft", .x = result.history.travel, .y = result.history.draft});
@@ -34,7 +34,8 @@ void force_figure(Run& run, const Blade& blade, const CutResult& result, const s
                 .x = other->history.travel,
                 .y = other->history.vertical});
   }
-  figure.add({.label = "plane wedge", .role = "bound", .x = {0.0, blade.travel}, .y = {wedge.draft, wedge.draft}});
+  figure.add({.label = "plane wedge, plane at rest", .role = "bound", .x = {0.0, blade.travel}, .y = {at_rest.draft, at_rest.draft}});
+  figure.add({.label = "plane wedge, least force", .role = "bound", .x = {0.0, blade.travel}, .y = {wedge.draft, wedge.draft}});
 }
 
 }  // namespace
@@ -50,19 +51,21 @@ Problem rigid_blade(const Parameters& input) {
     input.fail("independent", fmt::format("there is no independent cut at {:g} m/s with this friction", blade.speed));
   return [=](Run& run) {
     const CutResult result = cut(run, bed, blade, contact, window_start, true);
-    const exact::CutForce wedge = wedge_of(bed, blade);
+    const exact::CutForce wedge = wedge_of(bed, blade), at_rest = wedge_of(bed, blade, exact::Rupture::at_rest);
     const auto other = compare ? independent_cut(blade.speed, blade.friction > 0.0, window_start, blade.travel) : std::nullopt;
     if (other) {
       run.measure("draft", result.draft, "N/m", {other->draft, uncertainty * other->draft});
       run.measure("vertical", result.vertical, "N/m", {other->vertical, uncertainty * std::abs(other->vertical)});
     }
     run.measure("draft_wedge", result.draft, "N/m", {wedge.draft, 0.0});
+    run.measure("draft_wedge_at_rest", result.draft, "N/m", {at_rest.draft, 0.0});
+    run.measure("chip_direction", result.chip_direction, "rad", {wedge.rupture, 0.0});
     run.measure("scatter", result.scatter);
     run.measure("peak", result.peak, "N/m");
     run.measure("peak_travel", result.peak_travel, "m");
     run.measure("penetration", result.penetration);
     run.measure("energy_imbalance", result.energy_imbalance);
-    force_figure(run, blade, result, other, wedge);
+    force_figure(run, blade, result, other, wedge, at_rest);
   };
 }
 

@@ -10,6 +10,14 @@ namespace {
 
 constexpr double bin = 1e-4;   ///< m of travel: that of the independent forces
 
+/// Direction of the mean velocity of all soil that moves at half the speed of the face along its normal or faster.
+double chip_direction(const Particles<2>& soil, const Blade& blade) {
+  Vector<2> sum = Vector<2>::Zero();
+  for (const Vector<2>& v : soil.velocity)
+    if (v.norm() > 0.5 * blade.speed * std::sin(blade.rake)) sum += v;
+  return std::atan2(sum.y(), -sum.x());
+}
+
 }  // namespace
 
 CutResult cut(Run& run, const Bed& bed, const Blade& blade, const ContactLaw& law, double window_start, bool pictures) {
@@ -56,6 +64,7 @@ CutResult cut(Run& run, const Bed& bed, const Blade& blade, const ContactLaw& la
                    .scatter = 0.0,
                    .peak = 0.0,
                    .peak_travel = 0.0,
+                   .chip_direction = chip_direction(body.particles, blade),
                    .penetration = dynamic.column("penetration").back(),
                    .energy_imbalance = dynamic.energy_imbalance()};
   const std::vector<double>&t = dynamic.column("time"), &I_x = dynamic.column("impulse_x"), &I_y = dynamic.column("impulse_y");

@@ -15,6 +15,7 @@ struct CutResult {
   double draft, vertical;     ///< means over the window of travel, N/m
   double scatter;             ///< standard deviation of the draft in the window over its mean
   double peak, peak_travel;   ///< of the draft, N/m and m
+  double chip_direction;      ///< of the soil that the blade carries along at the end, above the horizontal ahead, rad
   double penetration;         ///< largest, in spacings
   double energy_imbalance;
 };
