@@ -40,7 +40,7 @@ def parser():
     command.add_argument("--alive", action="store_true", help="only defects that reference/kills.json does not know as killed")
     command.add_argument("--subtle", action="store_true", help="only defects that are said to be subtle")
     command.add_argument("--whole", action="store_true",
-                         help="run all that the smoke tier has on subtle defects, to see that they are")
+                         help="run all that the smoke tier has, to see how far its metrics move")
     command.add_argument("--resume", action="store_true", help="keep what was found for the same patch and commit")
     command.add_argument("--record", action="store_true", help="write what is found to reference/kills.json")
     command.add_argument("--commit", default="HEAD", help="commit to plant them in (default: HEAD)")
@@ -160,7 +160,7 @@ class Hunt:
         seen = []
         for tier in self.tiers:
             cases = [c for c in self.clean_of(tree).values() if c.data["tier"] == tier and defect.touches(c.data["exercises"])]
-            whole = defect.right or defect.equivalent or self.whole and defect.subtle and tier == "smoke"
+            whole = defect.right or defect.equivalent or self.whole and tier == "smoke"
             for batch in [cases] if whole and cases else order.batches(cases, self.past, defect):
                 seen += self.look(tree, batch, tier, environment)
                 if not defect.right and any(k.by == "truth" for k in seen):
