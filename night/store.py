@@ -7,6 +7,7 @@ other.
 import contextlib
 import math
 import sqlite3
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,7 +65,7 @@ def opened(path=FILE, create=False):
     try:
         with contextlib.closing(connection):
             connection.execute("PRAGMA foreign_keys = ON")
-            connection.execute("PRAGMA journal_mode = WAL")
+            _log_ahead(connection)
             connection.execute("PRAGMA synchronous = FULL")
             _prepare(connection, path)
             yield connection
@@ -72,6 +73,19 @@ def opened(path=FILE, create=False):
         raise GateError(f"{path}: cannot be used: {error}; what was there before is still there", 3) from None
     except sqlite3.DatabaseError as error:
         raise broken(path, error) from None
+
+
+def _log_ahead(connection):
+    """Puts the file under a write-ahead log. For this alone SQLite does not wait where another holds a lock to write."""
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode = WAL")
+            return
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or time.monotonic() > end:
+                raise
+        time.sleep(0.02)
 
 
 def _prepare(connection, path):

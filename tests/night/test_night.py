@@ -6,6 +6,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -94,6 +95,7 @@ def test_what_is_no_night_is_refused(tmp_path):
 
 WRITER = """
 import sys
+import threading
 sys.path.insert(0, {root!r})
 from pathlib import Path
 from night import store
@@ -113,6 +115,16 @@ def writer(tmp_path, name, count):
     night(folder)
     return subprocess.Popen([sys.executable, "-c", WRITER.format(root=str(ROOT), folder=str(folder), path=str(tmp_path / "h"),
                                                                  name=name, count=count)], stdout=subprocess.PIPE, text=True)
+
+
+def test_a_night_waits_for_one_that_has_just_made_the_file(tmp_path):
+    path = tmp_path / "h"
+    other = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
+    other.execute("BEGIN IMMEDIATE")
+    threading.Timer(0.3, other.execute, ["COMMIT"]).start()
+    with store.opened(path, create=True) as connection:
+        assert connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+    other.close()
 
 
 def test_two_nights_at_once_both_arrive(tmp_path):
