@@ -203,7 +203,12 @@ std::vector<CaseSpec> read_case_file(const std::filesystem::path& file, const st
     }
   if (specs.empty()) root.fail("case", "found no case, expected at least one [[case]]");
   for (const auto& [name, metrics] : sets)
-    for (const Parameters& metric : metrics) metric.check_all_used();
+    for (const Parameters& metric : metrics) {
+      if (!metric.was_read("class"))
+        metric.fail("name", "found a metric that no case takes from this set, expected one that does: each brings its own of this "
+                            "name");
+      metric.check_all_used();
+    }
   root.table_or_empty("sources");
   for (const std::string& key : root.keys())
     if (key != "family" && key != "case" && key != "sources" && key != "metric-set") {

@@ -416,6 +416,8 @@ int Parameters::line() const { return node_->place.line; }
 int Parameters::line(std::string_view key) const { return node_->place_of(key).line; }
 void Parameters::fail(std::string_view key, std::string_view message) const { node_->fail(key, message); }
 
+bool Parameters::was_read(std::string_view key) const { return node_->asked.contains(key); }
+
 void Parameters::check_all_used() const {
   const std::vector<std::string> known(node_->asked.begin(), node_->asked.end());
   for (const auto& [key, value] : node_->table) {

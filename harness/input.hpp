@@ -52,6 +52,7 @@ class Parameters {
   static Parameters read(const std::filesystem::path& file);
 
   bool has(std::string_view key) const;
+  bool was_read(std::string_view key) const;               ///< whether anybody asked for the key
   bool is_table(std::string_view key) const;               ///< whether the key is there and holds a table
 
   /// Dimensionless number: a bare TOML number.

@@ -227,6 +227,8 @@ TEST_CASE("Sets of metrics that are not there, that no case names or that name a
   CHECK(sample.message(head + sharing_case("a", R"(["all", "rest"])")).find("found \"rest\", expected a [[metric-set.NAME]]") !=
         std::string::npos);
   CHECK(sample.message(head + set + sharing_case("a", R"(["all"])")).find("found \"one\" twice in this set") != std::string::npos);
+  CHECK(sample.message(head + sharing_case("a", R"(["all"])") + metric_block("[[case.metric]]", "one", reported))
+            .find("found a metric that no case takes from this set") != std::string::npos);
   CHECK(sample.message(replaced(head, "norm", "nrom") + sharing_case("a", R"(["all"])")).find("norm") != std::string::npos);
   CHECK(sample.message(replaced(head, "symbol", "extra = 1\nsymbol") + sharing_case("a", R"(["all"])")).find("extra") !=
         std::string::npos);
