@@ -53,26 +53,27 @@ def _spread(values):
 
 
 def record(runs, reason, folder=FOLDER, who=None):
-    """Writes measured spreads into the baselines and a line on the ledger. Returns (metrics measured, metrics still without)."""
+    """Writes measured spreads into the baselines and a line on the ledger; what more runs have found of a metric stands. Returns
+    (metrics measured, metrics still without)."""
     measured = spreads(runs)
     who = who or ledger.who()
     count = without = 0
     with locked(folder, "noise"):
         ledger.read(folder)
         everything = baseline.read_all(folder)
-        touched = []
+        touched = {}
         for case, accepted in everything.items():
             for name, metric in accepted.metrics.items():
-                if name in measured.get(case, {}) and metric.value is not None:
-                    metric.spread, metric.runs, metric.reference_spread = measured[case][name]
+                found = measured.get(case, {}).get(name)
+                if found and found[1] >= metric.runs and metric.value is not None:
+                    metric.spread, metric.runs, metric.reference_spread = found
                     count += 1
+                    touched[case] = accepted
                 elif metric.value is not None and metric.spread is None:
                     without += 1
-            if case in measured:
-                touched.append(accepted)
         if touched:
             ledger.add(ledger.entry("noise", who, str(runs[0].provenance["commit"]), reason, cases=len(touched), metrics=count,
                                     variants=sorted(variant(r) for r in runs)), folder)
-        for accepted in touched:
+        for accepted in touched.values():
             baseline.write(accepted, folder)
     return count, without

@@ -128,6 +128,8 @@ def test_noise_is_the_spread_of_equally_right_runs_and_survives_a_blessing(tmp_p
     assert entries(tmp_path / "b")[-1]["kind"] == "noise"
     kept = baseline.read_all(tmp_path / "b")["kernel/one"].metrics["norm"]
     assert kept.spread == pytest.approx(0.03) and kept.runs == 3
+    assert noise.record(runs[:2], "two of them", tmp_path / "b", who="A") == (0, 0)   # three found more
+    assert baseline.read_all(tmp_path / "b")["kernel/one"].metrics["norm"].runs == 3
     assert gated(tmp_path / "base", tmp_path / "b", with_value(case(), 1.08)).rows[0].kind == "within"
     assert gated(tmp_path / "base", tmp_path / "b", with_value(case(), 1.10)).rows[0].kind == "away"
     blessed(tmp_path / "base", with_value(case(), 0.9), baselines=tmp_path / "b")
