@@ -95,7 +95,6 @@ def test_what_is_no_night_is_refused(tmp_path):
 
 WRITER = """
 import sys
-import threading
 sys.path.insert(0, {root!r})
 from pathlib import Path
 from night import store

@@ -13,8 +13,8 @@ constexpr double bin = 1e-4;   ///< m of travel: that of the independent forces
 /// Direction of the mean velocity of all soil that moves at half the speed of the face along its normal or faster.
 double chip_direction(const Particles<2>& soil, const Blade& blade) {
   Vector<2> sum = Vector<2>::Zero();
-  for (const Vector<2>& v : soil.velocity)
-    if (v.norm() > 0.5 * blade.speed * std::sin(blade.rake)) sum += v;
+  for (std::size_t i = 0; i < soil.size(); ++i)   // images behind them have mirrored velocities
+    if (const Vector<2>& v = soil.velocity[i]; v.norm() > 0.5 * blade.speed * std::sin(blade.rake)) sum += v;
   return std::atan2(sum.y(), -sum.x());
 }
 
