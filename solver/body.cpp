@@ -167,8 +167,12 @@ void Body<Dim>::put_idle_layers_to_rest() {
 }
 
 template <int Dim>
-bool Body<Dim>::neighbours_are_stale() const {
-  const Particles<Dim>& p = particles;
+void Body<Dim>::drift(std::span<const Vector<Dim>> velocity, double dt) {
+  Particles<Dim>& p = particles;
+  if (in_reference_frame()) {   // neighbours are those of the undeformed body
+    for_all(p.size(), [&](std::size_t i) { p.position[i] += dt * velocity[i]; });
+    return refresh_neighbours();
+  }
   const auto n = static_cast<std::int64_t>(p.size());
   double low[Dim], high[Dim], total = 0.0;
   std::fill_n(low, Dim, std::numeric_limits<double>::infinity());
@@ -176,6 +180,7 @@ bool Body<Dim>::neighbours_are_stale() const {
 #pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high) reduction(+ : total)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
+    p.position[i] += dt * velocity[i];
     const Vector<Dim> moved = p.position[i] - p.position_at_build[i];
     for (int a = 0; a < Dim; ++a) {
       low[a] = std::min(low[a], moved[a]);
@@ -188,22 +193,22 @@ bool Body<Dim>::neighbours_are_stale() const {
   Vector<Dim> lowest = Eigen::Map<const Vector<Dim>>(low), highest = Eigen::Map<const Vector<Dim>>(high);
   images.include_images(lowest, highest);
   const double allowed = skin * support(scheme.kernel) * smoothing_length();
-  return !std::isfinite(total) || !((highest - lowest).squaredNorm() < allowed * allowed);
+  refresh_neighbours(!std::isfinite(total) || !((highest - lowest).squaredNorm() < allowed * allowed));
 }
 
 template <int Dim>
-void Body<Dim>::refresh_neighbours(bool force) {
+void Body<Dim>::refresh_neighbours(bool find) {
   Particles<Dim>& p = particles;
   const std::size_t n = p.size();
   if (in_reference_frame()) {
-    if (force) {
+    if (find) {
       std::copy_n(p.reference_position.begin(), n, p.position_at_build.begin());
       find_neighbours();
     }
-    if (force || !keeps_pairs()) fill_images();   // else sums fill what they read
+    if (find || !keeps_pairs()) fill_images();   // else sums fill what they read
     return;
   }
-  if (force || neighbours_are_stale()) {
+  if (find) {
     for_all(n, [&](std::size_t i) { p.position[i] = box.wrapped(p.position[i]); });
     std::copy_n(p.position.begin(), n, p.position_at_build.begin());
     find_neighbours();
@@ -233,7 +238,7 @@ void Body<Dim>::fill_images() {
 template <int Dim>
 CorrectionView<Dim> Body<Dim>::correction() {
   if (in_reference_frame()) return view_of_correction();
-  find_volumes(0.0);
+  if (scheme.correction != Correction::none || !layers.empty()) find_volumes(0.0);
   make_correction();
   return view_of_correction();
 }
@@ -334,28 +339,26 @@ double Body<Dim>::respond(double dt, std::int64_t step) {
 
   has_run(Module::jaumann_rate);
   for_each_part(material, has_run);
-  std::visit(
+  return std::visit(
       [&](const auto& law) {
+        double compression = 0.0;
         const auto n = static_cast<std::int64_t>(p.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) reduction(max : compression)
         for (std::int64_t k = 0; k < n; ++k) {
           const auto i = static_cast<std::size_t>(k);
           if (is_in_layer(i)) continue;
-          const Tensor L = embed<Dim>(velocity_gradient_[i]);
+          const Matrix<Dim> L_i = velocity_gradient_[i];
+          const Tensor L = embed<Dim>(L_i);
           const MaterialState next = turn_and_respond(law, state(i), {symmetric_part(L) * dt, skew_part(L) * dt, dt});
           set_state(i, next);
-          const Matrix<Dim> half = 0.5 * dt * velocity_gradient_[i], I = Matrix<Dim>::Identity();
+          const Matrix<Dim> half = 0.5 * dt * L_i, I = Matrix<Dim>::Identity();
           p.deformation_gradient[i] = (I - half).inverse() * (I + half) * p.deformation_gradient[i];
           p.sound_speed[i] = law.sound_speed(next);
+          compression = std::max(compression, -L_i.trace());
         }
+        return compression;
       },
       material);
-
-  double compression = 0.0;
-  const auto n = static_cast<std::int64_t>(p.size());
-#pragma omp parallel for schedule(static) reduction(max : compression)
-  for (std::int64_t k = 0; k < n; ++k) compression = std::max(compression, -velocity_gradient_[static_cast<std::size_t>(k)].trace());
-  return compression;
 }
 
 template <int Dim>

@@ -58,9 +58,11 @@ class Body {
   /// or bent out of its clamp wants columns as deep as twice the support.
   void hold_face(std::string name, const std::vector<std::vector<std::int32_t>>& columns);
 
-  /// Sorts particles and finds neighbours when something has moved further than the skin allows, and brings images up to date.
-  /// `force` does so in any case.
-  void refresh_neighbours(bool force = false);
+  /// Moves particles by `velocity` for dt; sorts them and finds neighbours when something has moved further than the skin allows;
+  /// brings images up to date.
+  void drift(std::span<const Vector<Dim>> velocity, double dt);
+  /// Brings images up to date; with `find` sorts particles and finds neighbours before.
+  void refresh_neighbours(bool find = false);
   /// The list exactly as it was when positions were position_at_build: what a restart needs to go on bit for bit.
   void restore_neighbours();
 
@@ -135,7 +137,6 @@ class Body {
   void set_state(std::size_t i, const MaterialState& state);
 
  private:
-  bool neighbours_are_stale() const;
   void find_neighbours();
   void fill_images();
   /// Particles of layers that neither soil nor a layer's particle in reach of soil can see have no neighbours: nothing that their

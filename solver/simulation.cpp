@@ -116,16 +116,11 @@ void Simulation<Dim>::move(double dt, const SubSteps& sub_steps) {
 template <int Dim>
 void Simulation<Dim>::drift(double dt) {
   Particles<Dim>& p = body.particles;
-  const std::size_t n = p.size();
-  if (body.scheme.xsph > 0.0) {
-    body.images.fill_velocities(p.velocity);
-    drift_.resize(n);
-    xsph_velocity<Dim>(body.stencil(), p, p.velocity, body.scheme.xsph, drift_);
-    for_all(n, [&](std::size_t i) { p.position[i] += dt * drift_[i]; });
-  } else {
-    for_all(n, [&](std::size_t i) { p.position[i] += dt * p.velocity[i]; });
-  }
-  body.refresh_neighbours();
+  if (body.scheme.xsph == 0.0) return body.drift(p.velocity, dt);
+  body.images.fill_velocities(p.velocity);
+  drift_.resize(p.size());
+  xsph_velocity<Dim>(body.stencil(), p, p.velocity, body.scheme.xsph, drift_);
+  body.drift(drift_, dt);
 }
 
 template <int Dim>
@@ -210,12 +205,14 @@ void Simulation<Dim>::check() const {
   const auto stop = [&](std::size_t i, std::string_view field, std::string_view what) {
     throw Divergence(fmt::format("t = {:.6g} s, step {}, body {}, particle {}: {} {}", time_, steps_, body.name, p.id[i], field, what));
   };
-  // One quick look at all of them; who it is and why is asked only when one is wrong. A sum is finite only where each term is.
+  // One quick look at all of them; who it is and why is asked only when one is wrong. A sum is finite only where each term is. A
+  // stress that is not finite shows in the accelerations of all who see it, and that of a particle alone in the energy.
   const auto [wrong] = ordered_sum<1>(p.size(), [&](std::size_t i, auto& sum) {
-    const bool good = std::isfinite(p.acceleration[i].sum() + p.velocity[i].sum() + p.stress[i].sum()) && p.density[i] > 0.0 && inside(i);
+    const bool good = std::isfinite(p.acceleration[i].sum() + p.velocity[i].sum()) && p.density[i] > 0.0 && inside(i);
     sum[0] += good ? 0.0 : 1.0;
   });
-  for (std::size_t i = 0; wrong > 0.0 && i < p.size(); ++i) {
+  const bool look = wrong > 0.0 || !std::isfinite(imbalance_);
+  for (std::size_t i = 0; look && i < p.size(); ++i) {
     if (!p.acceleration[i].allFinite()) stop(i, "acceleration", "is not finite");
     if (!p.velocity[i].allFinite()) stop(i, "velocity", "is not finite");
     if (!p.stress[i].allFinite()) stop(i, "stress", "is not finite");

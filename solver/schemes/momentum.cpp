@@ -42,7 +42,8 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
     return 0.0;
   }();
   for_each_particle(stencil, read, [&]<class K>(std::size_t i, auto&& neighbours, K) {
-    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    const LaneVector<Dim> v_i = own<0>(neighbours);
+    const auto A_i = own<1>(neighbours);
     const Lanes prefactor = broadcast(dual ? 1.0 / p.density[i] : 1.0);
     const auto kernel = [h](const Pairs<Dim>& pair) { return scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)); };
     // [A_i + A_j] grad W, or W [Q_i p(s_ij) - Q_j p(s_ji)]: even terms of p change sign against odd ones when i and j swap.
@@ -53,10 +54,10 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
         LaneVector<Dim> f;
         for (int b = 0; b < terms_of_p; ++b)
           for (int a = 0; a < Dim; ++a)
-            f[a] += (b < Dim ? w.Q[i](a, b) + A_j[b * Dim + a] : w.Q[i](a, b) - A_j[b * Dim + a]) * basis[b];
+            f[a] += (b < Dim ? A_i[b * Dim + a] + A_j[b * Dim + a] : A_i[b * Dim + a] - A_j[b * Dim + a]) * basis[b];
         return kernel(pair) * f;
       } else {
-        return (broadcast<Dim>(w.A[i]) + A_j) * pair.grad;
+        return (A_i + A_j) * pair.grad;
       }
     };
     LaneVector<Dim> a;
@@ -69,15 +70,15 @@ void sum_pairs(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::span<c
       stress_power += dot(from_stress, v_ij);
       const Lanes m_j = dual ? weight_j * rho_j : weight_j;
       if constexpr (Viscous) {
-        const Lanes Pi = artificial_viscosity(*terms.viscosity, dot(v_ij, pair.x_ij), pair.r, h, 0.5 * (p.sound_speed[i] + c_j),
-                                              0.5 * (p.density[i] + rho_j));
+        const Lanes Pi = artificial_viscosity(*terms.viscosity, dot(v_ij, pair.x_ij), pair.r, h, 0.5 * (own<4>(neighbours) + c_j),
+                                              0.5 * (own<3>(neighbours) + rho_j));
         const LaneVector<Dim> from_viscosity = (-m_j * Pi) * pair.grad;
         a += from_viscosity;
         viscous_power += dot(from_viscosity, v_ij);
       }
       if constexpr (Artificial) {
         const Lanes f = kernel(pair) * (1.0 / value<K, Dim>(terms.spacing, h));
-        const LaneMatrix<Dim> R = broadcast<Dim>(w.R[i]) + (R_j, ...);
+        const LaneMatrix<Dim> R = own<5>(neighbours) + (R_j, ...);
         const LaneVector<Dim> from_artificial = (m_j * (power_of(f, terms.artificial_stress->n) - share)) * (R * pair.grad);
         a += from_artificial;
         artificial_power += dot(from_artificial, v_ij);

@@ -69,7 +69,7 @@ void quadratic_velocity_gradient(const Stencil<Dim>& stencil, std::span<const do
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(volume, velocity), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     std::array<LaneVector<Dim>, terms> total{};
-    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    const LaneVector<Dim> v_i = own<1>(neighbours);
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const LaneVector<Dim>& v_j) {
       const Lanes weight = V_j * (scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h)));
       const LaneVector<Dim> v_ji = v_j - v_i;

@@ -46,6 +46,12 @@ inline std::vector<Quad>& row_storage() {
   return storage;
 }
 
+/// Asks for `lines` lines of 64 bytes before they are read. An address outside of any array does no harm.
+template <int lines>
+[[gnu::always_inline]] inline void prefetch_lines(const void* first) {
+  for (int k = 0; k < lines; ++k) __builtin_prefetch(static_cast<const char*>(first) + 64 * k);
+}
+
 template <class T>
 double* put(const T& element, double* out) {
   if constexpr (std::is_same_v<T, double>) {
@@ -85,12 +91,25 @@ class Rows {
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < rows; ++k) {
       const auto i = static_cast<std::size_t>(k);
+      for (int q = 0; q < quads; q += 2) __builtin_prefetch(first_ + (i + 32) * quads + static_cast<std::size_t>(q), 1);   // to be written
       double* out = detail::put(position[i], reinterpret_cast<double*>(first_ + i * quads));
       std::apply([&](const auto&... array) { ((out = detail::put(array[i], out)), ...); }, reads.arrays);
     }
   }
 
   [[gnu::always_inline]] std::array<Lanes, 4 * quads> load(const std::int32_t* j) const { return load_rows<quads>(first_, j); }
+  /// Row i in every lane. Its neighbours have just had it in their hands: it is nearer than the arrays it was packed from.
+  [[gnu::always_inline]] std::array<Lanes, 4 * quads> load_own(std::size_t i) const {
+    const auto* row = reinterpret_cast<const double*>(first_ + i * quads);
+    std::array<Lanes, 4 * quads> lanes;
+    for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = broadcast(row[k]);
+    return lanes;
+  }
+
+  /// Asks for row j before it is read.
+  [[gnu::always_inline]] void prefetch(std::int32_t j) const {
+    detail::prefetch_lines<(quads + 1) / 2>(first_ + static_cast<std::ptrdiff_t>(j) * quads);
+  }
 
   static LaneVector<Dim> position(const std::array<Lanes, 4 * quads>& row) { return detail::take<Vector<Dim>>(row, 0); }
   /// f(elements...): the arrays' elements of a loaded row, in the order of reads().
@@ -99,6 +118,11 @@ class Rows {
     [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
       f(detail::take<T>(row, offset(k))...);
     }(std::index_sequence_for<T...>{});
+  }
+  /// Element k alone.
+  template <std::size_t k>
+  [[gnu::always_inline]] static auto element(const std::array<Lanes, 4 * quads>& row) {
+    return detail::take<std::tuple_element_t<k, std::tuple<T...>>>(row, offset(k));
   }
 
  private:

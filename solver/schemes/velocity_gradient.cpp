@@ -11,7 +11,7 @@ void gradient(const Stencil<Dim>& stencil, std::span<const double> volume, std::
   has_run(Module::velocity_gradient);
   for_each_particle(stencil, reads(volume, f), [&](std::size_t i, auto&& neighbours, auto) {
     LaneVector<Dim> total;
-    const Lanes f_i = broadcast(f[i]);
+    const Lanes f_i = own<1>(neighbours);
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const Lanes& f_j) {
       total += (V_j * (f_j - f_i)) * pair.grad;
     });
@@ -26,7 +26,7 @@ void velocity_gradient(const Stencil<Dim>& stencil, std::span<const double> volu
   has_run(Module::velocity_gradient);
   for_each_particle(stencil, reads(volume, velocity), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> L;
-    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    const LaneVector<Dim> v_i = own<1>(neighbours);
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const LaneVector<Dim>& v_j) {
       L.add_outer(v_j - v_i, V_j * pair.grad);
     });
@@ -42,7 +42,7 @@ void corrected_velocity_gradient(const Stencil<Dim>& stencil, std::span<const do
   has_run(Module::kernel_correction);
   for_each_particle(stencil, reads(volume, velocity), [&](std::size_t i, auto&& neighbours, auto) {
     LaneMatrix<Dim> L, linear;
-    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    const LaneVector<Dim> v_i = own<1>(neighbours);
     neighbours([&](const Pairs<Dim>& pair, const Lanes& V_j, const LaneVector<Dim>& v_j) {
       const LaneVector<Dim> weighted = V_j * pair.grad;
       L.add_outer(v_j - v_i, weighted);

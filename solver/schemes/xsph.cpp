@@ -11,7 +11,7 @@ void xsph_velocity(const Stencil<Dim>& stencil, const Particles<Dim>& p, std::sp
   const double h = stencil.smoothing_length;
   for_each_particle(stencil, reads(p.mass, p.density, velocity), [&]<class K>(std::size_t i, auto&& neighbours, K) {
     LaneVector<Dim> drift;
-    const LaneVector<Dim> v_i = broadcast<Dim>(velocity[i]);
+    const LaneVector<Dim> v_i = own<2>(neighbours);
     neighbours([&](const Pairs<Dim>& pair, const Lanes& m_j, const Lanes& rho_j, const LaneVector<Dim>& v_j) {
       const Lanes rho = 0.5 * (p.density[i] + rho_j);
       const Lanes W = scale<K, Dim>(h) * Shape<K, Dim>::w(pair.r * (1.0 / h));
